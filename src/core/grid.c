@@ -1,0 +1,329 @@
+/* grid.c - see grid.h */
+#include "grid.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define HILBERT_LEVELS (TY_GRID_BITS + 1) /* coordinates reach 2^30 itself */
+#define MAX_CELLS_EXPONENT 1000	 /* coordinates stay below 2^this cells, so that dividing cannot overflow */
+#define MIN_CELL_EXPONENT (-1000) /* nor underflow */
+#define POLL_INTERVAL 65536		  /* copies of one place that are sorted without a look for an interrupt */
+
+/* nearest whole number, halves up; exact for every finite v */
+static double
+round_half_up(double v)
+{
+	double whole = floor(v);
+
+	return v - whole >= 0.5 ? whole + 1 : whole;
+}
+
+/* v < 2^exponent_of(v) */
+static int
+exponent_of(double v)
+{
+	int exponent;
+
+	(void) frexp(v, &exponent);
+	return exponent;
+}
+
+static int
+larger(int a, int b)
+{
+	return a > b ? a : b;
+}
+
+/* exponent e of the cell 2^e for a box of the given half side (halved, so that it cannot overflow) */
+static int
+cell_exponent(double half_side, double magnitude)
+{
+	int exponent = half_side > 0 ? exponent_of(half_side) + 1 - TY_GRID_BITS
+								 : exponent_of(magnitude) - 53; /* one place only: as fine as its coordinates */
+
+	return larger(exponent, larger(exponent_of(magnitude) - MAX_CELLS_EXPONENT, MIN_CELL_EXPONENT));
+}
+
+ty_status
+ty_grid_fit(const ty_building *buildings, size_t n, ty_grid *grid)
+{
+	double low_x = buildings[0].x, high_x = low_x;
+	double low_y = buildings[0].y, high_y = low_y;
+	double half_side, magnitude;
+
+	for (size_t i = 0; i < n; i++)
+	{
+		const ty_building *b = &buildings[i];
+
+		if (!isfinite(b->x) || !isfinite(b->y))
+			return TY_NOT_FINITE;
+		low_x = b->x < low_x ? b->x : low_x;
+		high_x = b->x > high_x ? b->x : high_x;
+		low_y = b->y < low_y ? b->y : low_y;
+		high_y = b->y > high_y ? b->y : high_y;
+	}
+	half_side = fmax(high_x * 0.5 - low_x * 0.5, high_y * 0.5 - low_y * 0.5);
+	magnitude = fmax(fmax(fabs(low_x), fabs(high_x)), fmax(fabs(low_y), fabs(high_y)));
+	grid->cell = ldexp(1.0, cell_exponent(half_side, magnitude));
+	grid->origin_x = round_half_up(low_x / grid->cell);
+	grid->origin_y = round_half_up(low_y / grid->cell);
+	return TY_OK;
+}
+
+ty_position
+ty_grid_snap(const ty_grid *grid, double x, double y)
+{
+	/* division by a power of two is exact, and so is the difference of two whole numbers this near */
+	ty_position p = {(int32_t) (round_half_up(x / grid->cell) - grid->origin_x),
+					 (int32_t) (round_half_up(y / grid->cell) - grid->origin_y)};
+
+	return p;
+}
+
+/* the last cell may reach beyond the largest double */
+static double
+held_finite(double v)
+{
+	return fmin(fmax(v, -DBL_MAX), DBL_MAX);
+}
+
+double
+ty_grid_x(const ty_grid *grid, int32_t x)
+{
+	return held_finite((grid->origin_x + x) * grid->cell);
+}
+
+double
+ty_grid_y(const ty_grid *grid, int32_t y)
+{
+	return held_finite((grid->origin_y + y) * grid->cell);
+}
+
+uint64_t
+ty_hilbert_key(ty_position p)
+{
+	uint32_t flip = 0, swap = 0; /* the curve's orientation in the current cell */
+	uint64_t key = 0;
+
+	for (int level = HILBERT_LEVELS - 1; level >= 0; level--)
+	{
+		uint32_t x = (((uint32_t) p.x >> level) & 1) ^ flip;
+		uint32_t y = (((uint32_t) p.y >> level) & 1) ^ flip;
+		uint32_t differ = (x ^ y) & swap;
+
+		x ^= differ;
+		y ^= differ;
+		key = key << 2 | ((3 * x) ^ y);
+		flip ^= x & (y ^ 1);
+		swap ^= y ^ 1;
+	}
+	return key;
+}
+
+/* ---- sorting ---- */
+
+#define INSERTION_LIMIT 48 /* below, moving a few pairs beats counting digits */
+#define LARGE_SORT 8192	   /* from here on 11-bit digits save more passes than their counters cost */
+
+static void
+insertion_sort(uint64_t *keys, uint32_t *values, size_t n)
+{
+	for (size_t i = 1; i < n; i++)
+	{
+		uint64_t key = keys[i];
+		uint32_t value = values[i];
+		size_t j = i;
+
+		for (; j > 0 && keys[j - 1] > key; j--)
+		{
+			keys[j] = keys[j - 1];
+			values[j] = values[j - 1];
+		}
+		keys[j] = key;
+		values[j] = value;
+	}
+}
+
+/* one stable counting pass over the digit at shift; false when all digits are equal and nothing moved */
+static bool
+radix_pass(const uint64_t *from_keys, const uint32_t *from_values, uint64_t *to_keys, uint32_t *to_values, size_t n,
+		   int shift, uint32_t digits)
+{
+	uint32_t start[2048];
+	uint32_t total = 0;
+
+	memset(start, 0, digits * sizeof *start);
+	for (size_t i = 0; i < n; i++)
+		start[from_keys[i] >> shift & (digits - 1)]++;
+	if (start[from_keys[0] >> shift & (digits - 1)] == n)
+		return false;
+	for (uint32_t d = 0; d < digits; d++)
+	{
+		uint32_t count = start[d];
+
+		start[d] = total;
+		total += count;
+	}
+	for (size_t i = 0; i < n; i++)
+	{
+		uint32_t to = start[from_keys[i] >> shift & (digits - 1)]++;
+
+		to_keys[to] = from_keys[i];
+		to_values[to] = from_values[i];
+	}
+	return true;
+}
+
+static ty_status
+radix_sort(const ty_environment *env, uint64_t *keys, uint32_t *values, size_t n, uint64_t *other_keys,
+		   uint32_t *other_values)
+{
+	uint64_t *from_keys = keys, *to_keys = other_keys;
+	uint32_t *from_values = values, *to_values = other_values;
+	int width = n < LARGE_SORT ? 8 : 11;
+
+	for (int shift = 0; shift < 64; shift += width)
+	{
+		if (ty_interrupted(env))
+			return TY_INTERRUPTED;
+		if (radix_pass(from_keys, from_values, to_keys, to_values, n, shift, 1u << width))
+		{
+			uint64_t *k = from_keys;
+			uint32_t *v = from_values;
+
+			from_keys = to_keys;
+			from_values = to_values;
+			to_keys = k;
+			to_values = v;
+		}
+	}
+	if (from_keys != keys)
+	{
+		memcpy(keys, from_keys, n * sizeof *keys);
+		memcpy(values, from_values, n * sizeof *values);
+	}
+	return TY_OK;
+}
+
+ty_status
+ty_sort_keys(const ty_environment *env, uint64_t *keys, uint32_t *values, size_t n)
+{
+	ty_status status = TY_NO_MEMORY;
+	uint64_t *other_keys;
+	uint32_t *other_values;
+
+	if (n <= INSERTION_LIMIT)
+	{
+		insertion_sort(keys, values, n);
+		return TY_OK;
+	}
+	other_keys = ty_allocate_array(env, n, sizeof *other_keys);
+	other_values = ty_allocate_array(env, n, sizeof *other_values);
+	if (other_keys != NULL && other_values != NULL)
+		status = radix_sort(env, keys, values, n, other_keys, other_values);
+	ty_release(env, other_keys);
+	ty_release(env, other_values);
+	return status;
+}
+
+/* ---- canonical order ---- */
+
+static int
+compare_double(double a, double b)
+{
+	return (a > b) - (a < b);
+}
+
+/* the order of buildings at one grid position */
+static int
+compare_buildings(const ty_building *a, const ty_building *b)
+{
+	int c;
+
+	if ((c = compare_double(a->x, b->x)) != 0 || (c = compare_double(a->y, b->y)) != 0 ||
+		(c = compare_double(a->area, b->area)) != 0 || (c = compare_double(a->ratio, b->ratio)) != 0 ||
+		(c = compare_double(a->ux, b->ux)) != 0 || (c = compare_double(a->uy, b->uy)) != 0)
+		return c;
+	return (a->id > b->id) - (a->id < b->id);
+}
+
+/* merges the sorted runs [0, middle) and [middle, n) of order; scratch holds n entries */
+static void
+merge_runs(const ty_building *buildings, uint32_t *order, size_t middle, size_t n, uint32_t *scratch)
+{
+	size_t i = 0, j = middle, k = 0;
+
+	if (compare_buildings(&buildings[order[middle - 1]], &buildings[order[middle]]) <= 0)
+		return; /* in order already: so that copies of one building cost O(n) */
+	while (i < middle && j < n)
+		scratch[k++] = compare_buildings(&buildings[order[j]], &buildings[order[i]]) < 0 ? order[j++] : order[i++];
+	memcpy(scratch + k, order + i, (middle - i) * sizeof *order);
+	memcpy(order, scratch, (k + middle - i) * sizeof *order);
+}
+
+static ty_status
+merge_sort(const ty_environment *env, const ty_building *buildings, uint32_t *order, size_t n, uint32_t *scratch)
+{
+	ty_status status;
+
+	if (n < 2)
+		return TY_OK;
+	if (n > POLL_INTERVAL && ty_interrupted(env))
+		return TY_INTERRUPTED;
+	status = merge_sort(env, buildings, order, n / 2, scratch);
+	if (status == TY_OK)
+		status = merge_sort(env, buildings, order + n / 2, n - n / 2, scratch);
+	if (status == TY_OK)
+		merge_runs(buildings, order, n / 2, n, scratch);
+	return status;
+}
+
+/* sorts each run of equal keys by the buildings themselves */
+static ty_status
+order_equal_keys(const ty_environment *env, const ty_building *buildings, const uint64_t *keys, uint32_t *order,
+				 size_t n)
+{
+	uint32_t *scratch = NULL;
+	ty_status status = TY_OK;
+
+	for (size_t first = 0, end; status == TY_OK && first < n; first = end)
+	{
+		for (end = first + 1; end < n && keys[end] == keys[first]; end++)
+			;
+		if (ty_interrupted_at(env, first))
+			status = TY_INTERRUPTED;
+		if (status != TY_OK || end - first < 2)
+			continue;
+		if (scratch == NULL && (scratch = ty_allocate_array(env, n - first, sizeof *scratch)) == NULL)
+			return TY_NO_MEMORY;
+		status = merge_sort(env, buildings, order + first, end - first, scratch);
+	}
+	ty_release(env, scratch);
+	return status;
+}
+
+ty_status
+ty_canonical_order(const ty_environment *env, const ty_building *buildings, size_t n, const ty_grid *grid,
+				   uint32_t *order, ty_position *position, uint64_t *keys)
+{
+	ty_status status;
+
+	for (size_t i = 0; i < n; i++)
+	{
+		if (ty_interrupted_at(env, i))
+			return TY_INTERRUPTED;
+		order[i] = (uint32_t) i;
+		keys[i] = ty_hilbert_key(ty_grid_snap(grid, buildings[i].x, buildings[i].y));
+	}
+	status = ty_sort_keys(env, keys, order, n);
+	if (status == TY_OK)
+		status = order_equal_keys(env, buildings, keys, order, n);
+	for (size_t rank = 0; status == TY_OK && rank < n; rank++)
+	{
+		position[rank] = ty_grid_snap(grid, buildings[order[rank]].x, buildings[order[rank]].y);
+		if (ty_interrupted_at(env, rank))
+			status = TY_INTERRUPTED;
+	}
+	return status;
+}

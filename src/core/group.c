@@ -1,0 +1,295 @@
+/* group.c - see group.h */
+#include "group.h"
+
+#include "collapse.h"
+#include "grid.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- exact sums of areas ---- */
+
+/*
+ * Areas are summed as whole multiples of 2^-90 of a power of two above the group's largest, in 128 bits: exact
+ * for every area above 2^-37 of the largest, and in no case dependent on the order.
+ */
+typedef struct area_scale
+{
+	double to_units, from_units;
+} area_scale;
+
+#define AREA_BITS 90
+#define LEAST_AREA_EXPONENT (-900) /* below, 1 / unit would overflow */
+
+static area_scale
+fit_area_scale(const ty_building *buildings, size_t n)
+{
+	double largest = 0;
+	int exponent;
+
+	for (size_t i = 0; i < n; i++)
+		largest = buildings[i].area > largest ? buildings[i].area : largest;
+	(void) frexp(largest, &exponent);
+	if (exponent < LEAST_AREA_EXPONENT)
+		exponent = LEAST_AREA_EXPONENT;
+	return (area_scale){ldexp(1, AREA_BITS - exponent), ldexp(1, exponent - AREA_BITS)};
+}
+
+/* sum over n buildings; members, if given, are their indices */
+static double
+sum_areas(const ty_building *buildings, const uint32_t *members, size_t n, area_scale scale)
+{
+	__int128 sum = 0;
+
+	for (size_t i = 0; i < n; i++)
+		sum += (__int128) (buildings[members == NULL ? i : members[i]].area * scale.to_units);
+	return (double) sum * scale.from_units;
+}
+
+/* ---- one placeholder ---- */
+
+typedef struct group
+{
+	const ty_building *buildings;
+	const ty_parameters *parameters;
+	ty_grid grid;
+	area_scale scale;
+	double area_factor;
+	uint32_t *order;	   /* [n] building by rank */
+	ty_position *position; /* [n] by rank */
+	uint64_t *area_bits;   /* [largest number of members] scratch of the median ... */
+	uint32_t *sorted;	   /* ... and what its sort moves along */
+} group;
+
+/* an area whose bits the median has sorted; they ascend as areas do, which are not negative */
+static double
+area_of_bits(uint64_t bits)
+{
+	double area;
+
+	memcpy(&area, &bits, sizeof area);
+	return area;
+}
+
+static ty_status
+median_area(const ty_environment *env, const group *g, const uint32_t *members, size_t n, double *median)
+{
+	ty_status status;
+
+	for (size_t i = 0; i < n; i++)
+		memcpy(&g->area_bits[i], &g->buildings[members[i]].area, sizeof *g->area_bits);
+	status = ty_sort_keys(env, g->area_bits, g->sorted, n);
+	*median = n % 2 == 1 ? area_of_bits(g->area_bits[n / 2])
+						 : 0.5 * area_of_bits(g->area_bits[n / 2 - 1]) + 0.5 * area_of_bits(g->area_bits[n / 2]);
+	return status;
+}
+
+/* A_n of spec 3.2 */
+static ty_status
+placeholder_area(const ty_environment *env, const group *g, const uint32_t *members, size_t n, double *area)
+{
+	ty_area_statistic statistic = g->parameters->area_statistic;
+	ty_status status = TY_OK;
+
+	if (n == 1)
+		*area = g->buildings[members[0]].area;
+	else if (statistic == TY_MEDIAN)
+		status = median_area(env, g, members, n, area);
+	else
+		*area = sum_areas(g->buildings, members, n, g->scale) / (statistic == TY_SUM ? 1 : (double) n);
+	if (statistic != TY_SUM)
+		*area *= g->area_factor;
+	return status;
+}
+
+/* the largest area, then the smallest rank; members ascend by rank */
+static uint32_t
+representative(const group *g, const uint32_t *members, size_t n)
+{
+	uint32_t best = members[0];
+
+	for (size_t i = 1; i < n; i++)
+		if (g->buildings[members[i]].area > g->buildings[best].area)
+			best = members[i];
+	return best;
+}
+
+/* Fills in a placeholder whose members are known. rank: the smallest of them, where the vertex is kept. */
+static ty_status
+describe(const ty_environment *env, const group *g, const uint32_t *members, uint32_t rank, ty_placeholder *p)
+{
+	const ty_building *b;
+	ty_status status = placeholder_area(env, g, members + p->first, p->count, &p->area);
+
+	p->representative = representative(g, members + p->first, p->count);
+	b = &g->buildings[p->representative];
+	/* a building that stands for itself stays exactly where it is */
+	p->x = p->count == 1 ? b->x : ty_grid_x(&g->grid, g->position[rank].x);
+	p->y = p->count == 1 ? b->y : ty_grid_y(&g->grid, g->position[rank].y);
+	p->ratio = g->parameters->shape == TY_SQUARE ? 1 : b->ratio;
+	p->ux = b->ux;
+	p->uy = b->uy;
+	ty_rectangle_sides(p->area, p->ratio, &p->width, &p->length);
+	if (status == TY_OK && (!isfinite(p->area) || !isfinite(p->length)))
+		status = TY_NOT_FINITE;
+	return status;
+}
+
+/* ---- the whole group ---- */
+
+/* Sorts the ranks by label, stably; first[] and count[] of the placeholders, and members as buildings. */
+static void
+list_members(const uint32_t *label, const uint32_t *order, size_t n, ty_result *result)
+{
+	uint32_t first = 0;
+
+	for (size_t i = 0; i < result->count; i++)
+		result->placeholders[i].count = 0;
+	for (size_t rank = 0; rank < n; rank++)
+		result->placeholders[label[rank]].count++;
+	for (size_t i = 0; i < result->count; i++)
+	{
+		result->placeholders[i].first = first;
+		first += result->placeholders[i].count;
+		result->placeholders[i].count = 0;
+	}
+	for (size_t rank = 0; rank < n; rank++)
+	{
+		ty_placeholder *p = &result->placeholders[label[rank]];
+
+		result->members[p->first + p->count++] = order[rank];
+	}
+}
+
+static uint32_t
+most_members(const ty_result *result)
+{
+	uint32_t most = 1;
+
+	for (size_t i = 0; i < result->count; i++)
+		most = result->placeholders[i].count > most ? result->placeholders[i].count : most;
+	return most;
+}
+
+static ty_status
+describe_all(const ty_environment *env, const group *g, const uint32_t *label, size_t n, ty_result *result)
+{
+	ty_status status = TY_OK;
+	size_t next = 0;
+
+	/* labels are numbered by smallest rank: the next new one is met at that rank */
+	for (size_t rank = 0; status == TY_OK && rank < n; rank++)
+	{
+		ty_placeholder *p = &result->placeholders[next];
+
+		if (label[rank] != next)
+			continue;
+		status = describe(env, g, result->members, (uint32_t) rank, p);
+		result->undrawn += !(p->area > 0);
+		next++;
+		if (ty_interrupted_at(env, next))
+			return TY_INTERRUPTED;
+	}
+	return status;
+}
+
+/* room for the median of the placeholder with most members */
+static ty_status
+prepare_median(const ty_environment *env, group *g, const ty_result *result)
+{
+	uint32_t most = most_members(result);
+
+	if (g->parameters->area_statistic != TY_MEDIAN)
+		return TY_OK;
+	g->area_bits = ty_allocate_array(env, most, sizeof *g->area_bits);
+	g->sorted = ty_allocate_array(env, most, sizeof *g->sorted);
+	if (g->area_bits == NULL || g->sorted == NULL)
+		return TY_NO_MEMORY;
+	memset(g->sorted, 0, most * sizeof *g->sorted);
+	return TY_OK;
+}
+
+static ty_status
+cut_and_describe(const ty_environment *env, group *g, const ty_sequence *sequence, size_t n, ty_result *result)
+{
+	uint32_t *label = ty_allocate_array(env, n, sizeof *label);
+	ty_status status = TY_NO_MEMORY;
+
+	result->members = ty_allocate_array(env, n, sizeof *result->members);
+	result->placeholders = ty_allocate_array(env, n - sequence->count, sizeof *result->placeholders);
+	if (label != NULL && result->members != NULL && result->placeholders != NULL)
+	{
+		result->count = ty_sequence_cut(sequence, sequence->count, n, label);
+		list_members(label, g->order, n, result);
+		status = prepare_median(env, g, result);
+		if (status == TY_OK)
+			status = describe_all(env, g, label, n, result);
+	}
+	ty_release(env, label);
+	return status;
+}
+
+/* when to stop, in the core's terms */
+static ty_stop
+find_stop(const group *g, size_t n)
+{
+	const ty_parameters *p = g->parameters;
+	ty_stop stop = {n, p->min_distance / g->grid.cell};
+
+	if (p->law)
+		stop.count = ty_count(n, p, sum_areas(g->buildings, NULL, n, g->scale) / (double) n);
+	return stop;
+}
+
+static ty_status
+order_and_collapse(const ty_environment *env, group *g, size_t n, ty_sequence *sequence)
+{
+	uint64_t *keys = ty_allocate_array(env, n, sizeof *keys);
+	ty_status status = TY_NO_MEMORY;
+
+	g->order = ty_allocate_array(env, n, sizeof *g->order);
+	g->position = ty_allocate_array(env, n, sizeof *g->position);
+	if (keys != NULL && g->order != NULL && g->position != NULL)
+		status = ty_canonical_order(env, g->buildings, n, &g->grid, g->order, g->position, keys);
+	if (status == TY_OK)
+		status = ty_collapse(env, g->position, keys, n, g->parameters->s_u, find_stop(g, n), false, NULL, NULL,
+							 sequence);
+	ty_release(env, keys);
+	return status;
+}
+
+ty_status
+ty_typify(const ty_environment *env, const ty_building *buildings, size_t n, const ty_parameters *p,
+		  ty_result *result)
+{
+	group g = {.buildings = buildings, .parameters = p, .area_factor = ty_area_factor(p)};
+	ty_sequence sequence = {0};
+	ty_status status;
+
+	*result = (ty_result){0};
+	if (n > TY_MAX_VERTICES)
+		return TY_TOO_MANY;
+	status = ty_grid_fit(buildings, n, &g.grid);
+	if (status != TY_OK)
+		return status;
+	g.scale = fit_area_scale(buildings, n);
+	status = order_and_collapse(env, &g, n, &sequence);
+	if (status == TY_OK)
+		status = cut_and_describe(env, &g, &sequence, n, result);
+	ty_sequence_free(env, &sequence);
+	ty_release(env, g.order);
+	ty_release(env, g.position);
+	ty_release(env, g.area_bits);
+	ty_release(env, g.sorted);
+	if (status != TY_OK)
+		ty_result_free(env, result);
+	return status;
+}
+
+void
+ty_result_free(const ty_environment *env, ty_result *result)
+{
+	ty_release(env, result->placeholders);
+	ty_release(env, result->members);
+	*result = (ty_result){0};
+}

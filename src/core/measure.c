@@ -1,0 +1,369 @@
+/*
+ * measure.c - see measure.h
+ *
+ * Everything is summed relative to the first point, so that a house at coordinates of millions of metres
+ * loses no digits. The centroid follows ST_Centroid: by area where there is one, else by length, else the
+ * mean of the points.
+ */
+#include "measure.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ty_point
+read_point(const void *xy, size_t stride, uint32_t i)
+{
+	ty_point p;
+
+	memcpy(&p, (const unsigned char *) xy + i * stride, sizeof p);
+	return p;
+}
+
+void
+ty_measure_begin(ty_measure *m, const ty_environment *env)
+{
+	/* field by field: the inline points are large and need no clearing */
+	m->env = env;
+	m->status = TY_OK;
+	m->areal = m->linear = m->puntal = (ty_moment){0, 0, 0};
+	m->area = 0;
+	m->low = (ty_point){INFINITY, INFINITY};
+	m->high = (ty_point){-INFINITY, -INFINITY};
+	m->count = 0;
+	m->capacity = TY_HULL_INLINE;
+	m->points = m->inline_points;
+	m->base = (ty_point){NAN, NAN};
+}
+
+/* room for n more points of the outline; behind the capacity there is as much again for the hull */
+static bool
+reserve(ty_measure *m, size_t n)
+{
+	size_t capacity = 2 * (m->count + n);
+	ty_point *points;
+
+	if (m->count + n <= m->capacity)
+		return true;
+	if (m->points == m->inline_points)
+	{
+		points = ty_allocate_array(m->env, 2 * capacity + 1, sizeof *points);
+		if (points != NULL)
+			memcpy(points, m->points, m->count * sizeof *points);
+	}
+	else
+		points = ty_reallocate_array(m->env, m->points, 2 * capacity + 1, sizeof *points);
+	if (points == NULL)
+	{
+		m->status = TY_NO_MEMORY;
+		return false;
+	}
+	m->points = points;
+	m->capacity = capacity;
+	return true;
+}
+
+/* takes the point into the box; false when it is not finite */
+static bool
+extend_box(ty_measure *m, ty_point p)
+{
+	if (!isfinite(p.x) || !isfinite(p.y))
+	{
+		m->status = TY_NOT_FINITE;
+		return false;
+	}
+	if (isnan(m->base.x))
+		m->base = p;
+	m->low.x = p.x < m->low.x ? p.x : m->low.x;
+	m->low.y = p.y < m->low.y ? p.y : m->low.y;
+	m->high.x = p.x > m->high.x ? p.x : m->high.x;
+	m->high.y = p.y > m->high.y ? p.y : m->high.y;
+	return true;
+}
+
+static void
+add_moment(ty_moment *moment, double weight, double x, double y)
+{
+	moment->weight += weight;
+	moment->x += weight * x;
+	moment->y += weight * y;
+}
+
+/* length-weighted sum of a path's segments; a path without length counts as its first point */
+static void
+add_path(ty_measure *m, const void *xy, size_t stride, uint32_t n, bool outline)
+{
+	double length = 0;
+	ty_point before = {0, 0}, first = {0, 0};
+
+	if (n == 0 || m->status != TY_OK || (outline && !reserve(m, n)))
+		return;
+	for (uint32_t i = 0; i < n; i++)
+	{
+		ty_point p = read_point(xy, stride, i);
+
+		if (!extend_box(m, p))
+			return;
+		p.x -= m->base.x;
+		p.y -= m->base.y;
+		if (outline)
+			m->points[m->count++] = p;
+		if (i == 0)
+			first = p;
+		else
+		{
+			double dx = p.x - before.x, dy = p.y - before.y;
+			double segment = sqrt(dx * dx + dy * dy);
+
+			length += segment;
+			add_moment(&m->linear, segment, 0.5 * (before.x + p.x), 0.5 * (before.y + p.y));
+		}
+		before = p;
+	}
+	if (!(length > 0))
+		add_moment(&m->puntal, 1, first.x, first.y);
+}
+
+/* the ring's shoelace sum and area-weighted centroid, relative to the base */
+static void
+add_area(ty_measure *m, const void *xy, size_t stride, uint32_t n, bool shell)
+{
+	double twice = 0, x = 0, y = 0, sign;
+	ty_point before = read_point(xy, stride, n - 1);
+
+	before.x -= m->base.x;
+	before.y -= m->base.y;
+	for (uint32_t i = 0; i < n; i++)
+	{
+		ty_point p = read_point(xy, stride, i);
+		double cross;
+
+		p.x -= m->base.x;
+		p.y -= m->base.y;
+		cross = before.x * p.y - p.x * before.y;
+		twice += cross;
+		x += (before.x + p.x) * cross;
+		y += (before.y + p.y) * cross;
+		before = p;
+	}
+	sign = (twice < 0) == shell ? -1 : 1; /* either direction counts alike; holes count against the shell */
+	m->area += 0.5 * sign * twice;
+	m->areal.weight += 3 * sign * twice;
+	m->areal.x += sign * x;
+	m->areal.y += sign * y;
+}
+
+void
+ty_measure_ring(ty_measure *m, const void *xy, size_t stride, uint32_t n, bool shell)
+{
+	add_path(m, xy, stride, n, shell);
+	if (n > 0 && m->status == TY_OK)
+		add_area(m, xy, stride, n, shell);
+}
+
+void
+ty_measure_line(ty_measure *m, const void *xy, size_t stride, uint32_t n)
+{
+	add_path(m, xy, stride, n, true);
+}
+
+void
+ty_measure_point(ty_measure *m, const void *xy)
+{
+	add_path(m, xy, sizeof(ty_point), 1, true);
+}
+
+/* The centroid by the highest dimension that has a weight. */
+static void
+find_centroid(const ty_measure *m, double *x, double *y)
+{
+	const ty_moment *moment = m->areal.weight != 0	  ? &m->areal
+							  : m->linear.weight != 0 ? &m->linear
+													  : &m->puntal;
+
+	*x = moment->x / moment->weight + m->base.x;
+	*y = moment->y / moment->weight + m->base.y;
+	/* bow-ties and slivers throw the centroid anywhere; written so that NaN is caught too */
+	if (!(*x >= m->low.x && *x <= m->high.x && *y >= m->low.y && *y <= m->high.y))
+	{
+		*x = 0.5 * m->low.x + 0.5 * m->high.x;
+		*y = 0.5 * m->low.y + 0.5 * m->high.y;
+	}
+	*x += 0.0; /* no negative zero: equal buildings are the same bytes */
+	*y += 0.0;
+}
+
+ty_status
+ty_measure_end(ty_measure *m, ty_building *building)
+{
+	if (m->status == TY_OK)
+	{
+		building->area = fabs(m->area);
+		building->id = 0;
+		find_centroid(m, &building->x, &building->y);
+		if (!isfinite(building->area))
+			m->status = TY_NOT_FINITE;
+		else
+			ty_minimum_rectangle(m->points, m->count, m->points + m->capacity, &building->ratio, &building->ux, &building->uy);
+	}
+	if (m->points != m->inline_points)
+		ty_release(m->env, m->points);
+	return m->status;
+}
+
+/* ---- minimum-area rectangle ---- */
+
+static int
+compare_points(const void *a, const void *b)
+{
+	const ty_point *p = a, *q = b;
+
+	if (p->x != q->x)
+		return p->x < q->x ? -1 : 1;
+	return (p->y > q->y) - (p->y < q->y);
+}
+
+static void
+sort_points(ty_point *points, size_t n)
+{
+	if (n > TY_HULL_INLINE)
+	{
+		qsort(points, n, sizeof *points, compare_points);
+		return;
+	}
+	for (size_t i = 1; i < n; i++)
+	{
+		ty_point p = points[i];
+		size_t j = i;
+
+		for (; j > 0 && compare_points(&points[j - 1], &p) > 0; j--)
+			points[j] = points[j - 1];
+		points[j] = p;
+	}
+}
+
+/* positive when a, b, c turn left */
+static double
+turn(ty_point a, ty_point b, ty_point c)
+{
+	return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/* sorts the points and drops repeats; returns how many are left */
+static size_t
+distinct_points(ty_point *points, size_t n)
+{
+	size_t count = 1;
+
+	sort_points(points, n);
+	for (size_t i = 1; i < n; i++)
+		if (compare_points(&points[i], &points[count - 1]) != 0)
+			points[count++] = points[i];
+	return count;
+}
+
+/* takes the point as the next of a counter-clockwise chain that may shrink back to `least` points */
+static size_t
+extend_chain(ty_point *hull, size_t count, size_t least, ty_point p)
+{
+	while (count > least && turn(hull[count - 2], hull[count - 1], p) <= 0)
+		count--;
+	hull[count++] = p;
+	return count;
+}
+
+/* Convex hull, counter-clockwise, by Andrew's monotone chain (1979): lower chain, then upper. Returns its size. */
+static size_t
+convex_hull(ty_point *points, size_t n, ty_point *hull)
+{
+	size_t count = 0, lower;
+
+	n = distinct_points(points, n);
+	for (size_t i = 0; i < n; i++)
+		count = extend_chain(hull, count, 1, points[i]);
+	lower = count;
+	for (size_t i = n - 1; i-- > 0;)
+		count = extend_chain(hull, count, lower, points[i]);
+	return n > 1 ? count - 1 : count; /* the last point is the first again */
+}
+
+static double
+along(ty_point e, ty_point a, ty_point b)
+{
+	return e.x * (b.x - a.x) + e.y * (b.y - a.y);
+}
+
+static double
+across(ty_point e, ty_point a, ty_point b)
+{
+	return e.x * (b.y - a.y) - e.y * (b.x - a.x);
+}
+
+static ty_point
+unit(ty_point a, ty_point b)
+{
+	double dx = b.x - a.x, dy = b.y - a.y;
+	double largest = fmax(fabs(dx), fabs(dy));
+	double length;
+
+	dx /= largest; /* first, so that no square over- or underflows */
+	dy /= largest;
+	length = sqrt(dx * dx + dy * dy);
+	return (ty_point){dx / length, dy / length};
+}
+
+/* the longer side's direction, turned into [0, 180) */
+static void
+set_direction(ty_point e, double *ux, double *uy)
+{
+	bool turned = e.y < 0 || (e.y == 0 && e.x < 0);
+
+	*ux = turned ? -e.x : e.x;
+	*uy = turned ? -e.y : e.y;
+	if (*uy == 0)
+		*ux = 1, *uy = 0; /* no negative zero */
+	if (*ux == 0)
+		*ux = 0;
+}
+
+/* for the corner that lies farthest in some direction: steps on while the hull still rises that way */
+#define ADVANCE(corner, rises) \
+	for (size_t steps = 0; steps < n && (rises); steps++) \
+		corner = (corner + 1) % n
+
+void
+ty_minimum_rectangle(ty_point *points, size_t n, ty_point *hull, double *ratio, double *ux, double *uy)
+{
+	double least = INFINITY;
+	size_t front = 0, top = 0, back = 0; /* farthest along the edge, across it, and against it */
+
+	*ratio = 1;
+	*ux = 1;
+	*uy = 0;
+	n = convex_hull(points, n, hull);
+	for (size_t i = 0; n > 1 && i < n; i++)
+	{
+		ty_point e = unit(hull[i], hull[(i + 1) % n]);
+		double side, height;
+
+		ADVANCE(front, along(e, hull[front], hull[(front + 1) % n]) > 0);
+		if (i == 0)
+			top = back = front;
+		ADVANCE(top, across(e, hull[top], hull[(top + 1) % n]) > 0);
+		if (i == 0)
+			back = top;
+		ADVANCE(back, along(e, hull[back], hull[(back + 1) % n]) < 0);
+		side = along(e, hull[back], hull[front]);
+		height = across(e, hull[i], hull[top]);
+		if (side * height < least)
+		{
+			bool lengthwise = side >= height;
+
+			least = side * height;
+			*ratio = lengthwise ? height / side : side / height;
+			set_direction(lengthwise ? e : (ty_point){-e.y, e.x}, ux, uy);
+		}
+	}
+	if (!(*ratio > 0 && *ratio <= 1))
+		*ratio = 1; /* a line or a point */
+}

@@ -1,0 +1,111 @@
+/*
+ * mesh.h - the Delaunay mesh of the current vertices, restored locally after every collapse (spec 2.2).
+ *
+ * Vertices are numbered by rank. Triangles are one flat array; half-edge h = 3 * triangle + corner runs
+ * from vertex[corner] to the next corner. Every hull edge carries a ghost triangle whose third vertex is
+ * TY_GHOST, so the mesh is a closed surface and no operation has a special case for the hull. A collinear
+ * (or two-point) mesh consists of ghosts alone: a chain.
+ *
+ * Vertices at one position: the mesh holds the smallest rank of them; the others are not in it (the
+ * collapse merges them first, at cost 0).
+ */
+#ifndef TY_MESH_H
+#define TY_MESH_H
+
+#include "environment.h"
+#include "grid.h"
+
+#define TY_GHOST UINT32_MAX
+#define TY_NONE UINT32_MAX
+#define TY_MAX_VERTICES ((size_t) 700000000) /* 6 half-edges a vertex in 32 bits */
+
+typedef struct ty_triangle
+{
+	uint32_t vertex[3];	  /* counter-clockwise; at most one is TY_GHOST */
+	uint32_t adjacent[3]; /* the opposite half-edge of vertex[i] -> vertex[i + 1] */
+} ty_triangle;
+
+typedef struct ty_mesh
+{
+	const ty_environment *env;
+	ty_position *position;	/* [vertices] borrowed from the caller, who may read it; the mesh moves entries */
+	size_t vertices;		/* length of position */
+	size_t live;			/* vertices in the mesh */
+	ty_triangle *triangles; /* [2 * vertices - 2] */
+	uint32_t *edge;			/* [vertices] a half-edge that starts at the vertex; TY_NONE: not in the mesh; 0 for a lone vertex */
+	uint32_t used_triangles; /* triangles from here on have never been used */
+	uint32_t free_triangle;	 /* list of those given back, linked by adjacent[0], vertices TY_NONE */
+	uint32_t *stack;		/* half-edges to examine */
+	size_t stack_count, stack_capacity;
+	uint64_t rebuilds;		/* how often the mesh was built anew (degenerate changes only) */
+	/* may be NULL; told of every edge that a change makes between two old vertices (and of some that it unmakes) */
+	void (*edge_made)(void *context, uint32_t a, uint32_t b);
+	void *edge_context;
+} ty_mesh;
+
+/*
+ * Builds the mesh over the given vertices by divide and conquer along the Hilbert order (after Guibas and
+ * Stolfi 1985). keys[i] is the Hilbert key of vertex list[i], ascending and without repeats; list NULL means
+ * 0 .. n-1. position holds `vertices` entries and must outlive the mesh. On any status but TY_OK nothing is
+ * to be freed.
+ */
+ty_status ty_mesh_build(const ty_environment *env, ty_position *position, size_t vertices, const uint32_t *list,
+						const uint64_t *keys, size_t n, ty_mesh *mesh);
+void ty_mesh_free(ty_mesh *mesh);
+
+/*
+ * Replaces s and t, the ends of an edge, by one vertex at `to` and restores the Delaunay property. The
+ * vertex keeps the smaller of the two numbers. Where another vertex w lies at `to` already, s and t leave
+ * the mesh and *met = w, to be merged next; otherwise *met = TY_NONE.
+ */
+ty_status ty_mesh_collapse(ty_mesh *mesh, uint32_t s, uint32_t t, ty_position to, uint32_t *met);
+
+/* The vertex moves to `to` (the second half of a merge at distance 0); otherwise as ty_mesh_collapse. */
+ty_status ty_mesh_move(ty_mesh *mesh, uint32_t v, uint32_t renamed, ty_position to, uint32_t *met);
+
+/* Walk over the neighbours of v: h = mesh->edge[v]; do { ... } while ((h = ty_next_around(mesh, h)) != first) */
+static inline uint32_t
+ty_next_in_triangle(uint32_t h)
+{
+	return h % 3 == 2 ? h - 2 : h + 1;
+}
+
+static inline uint32_t
+ty_previous_in_triangle(uint32_t h)
+{
+	return h % 3 == 0 ? h + 2 : h - 1;
+}
+
+static inline uint32_t
+ty_origin(const ty_mesh *mesh, uint32_t h)
+{
+	return mesh->triangles[h / 3].vertex[h % 3];
+}
+
+static inline uint32_t
+ty_target(const ty_mesh *mesh, uint32_t h)
+{
+	return ty_origin(mesh, ty_next_in_triangle(h));
+}
+
+static inline uint32_t
+ty_opposite(const ty_mesh *mesh, uint32_t h)
+{
+	return mesh->triangles[h / 3].adjacent[h % 3];
+}
+
+/* the next half-edge that starts at the same vertex, counter-clockwise; its target may be TY_GHOST */
+static inline uint32_t
+ty_next_around(const ty_mesh *mesh, uint32_t h)
+{
+	return ty_opposite(mesh, ty_previous_in_triangle(h));
+}
+
+/*
+ * Checks every invariant: adjacency is mutual, triangles are counter-clockwise, every edge is locally
+ * Delaunay under the tie rule, the hull is convex, Euler's formula holds. NULL when all hold, else what
+ * does not. O(vertices).
+ */
+const char *ty_mesh_check(const ty_mesh *mesh);
+
+#endif

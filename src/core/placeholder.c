@@ -1,0 +1,147 @@
+/* placeholder.c - see placeholder.h */
+#include "placeholder.h"
+
+#include <math.h>
+
+#define DEGREES_PER_RADIAN 57.29577951308232087680
+#define RADIANS_PER_DEGREE 0.017453292519943295769
+
+/* Beyond m200 placeholders keep their size on the map: a smaller exponent would make the share of ink grow. */
+#define LEAST_EXPONENT_BEYOND_LOD200 4.0
+/* lets a count that is whole in the reals survive the rounding of the law */
+#define COUNT_TOLERANCE 1e-12
+
+/* pow, but free of the C library in the cases that matter, so that they are the same everywhere */
+static double
+power(double base, double exponent)
+{
+	if (exponent == 0)
+		return 1;
+	if (exponent == 0.5)
+		return sqrt(base);
+	if (exponent == 1)
+		return base;
+	if (exponent == 2)
+		return base * base;
+	return pow(base, exponent);
+}
+
+/* area factor at an arbitrary scale */
+static double
+area_factor(const ty_parameters *p, double scale)
+{
+	double enlargement = scale / p->source_scale;
+	double fraction = (scale - p->source_scale) / (p->lod200_scale - p->source_scale);
+
+	return enlargement * enlargement * (1 - p->psi * fmin(fraction, 1));
+}
+
+double
+ty_area_factor(const ty_parameters *p)
+{
+	return area_factor(p, p->scale);
+}
+
+double
+ty_psi(double mean_placeholder_area, double mean_area_lod200, double source_scale, double lod200_scale)
+{
+	double reduction = source_scale / lod200_scale;
+
+	return 1 - reduction * reduction * (mean_area_lod200 / mean_placeholder_area);
+}
+
+/* share of the buildings that the radical law leaves */
+static double
+radical_share(const ty_parameters *p)
+{
+	double nearer = fmin(p->scale, p->lod200_scale);
+	double share = power(p->source_scale / nearer, p->exponent / 2);
+
+	if (p->scale > p->lod200_scale)
+		share *= power(p->lod200_scale / p->scale, fmax(p->exponent, LEAST_EXPONENT_BEYOND_LOD200) / 2);
+	return share;
+}
+
+/*
+ * Greatest area factor over [m25, m_r]: the share of the black-white rule is its inverse, which so never grows
+ * with the scale. Up to m200 the factor is a cubic with at most one maximum; beyond it rises.
+ */
+static double
+greatest_area_factor(const ty_parameters *p)
+{
+	double slope = p->psi / (p->lod200_scale - p->source_scale);
+	double greatest = fmax(1, area_factor(p, p->scale));
+
+	greatest = fmax(greatest, area_factor(p, fmin(p->scale, p->lod200_scale)));
+	if (slope > 0)
+	{
+		double summit = 2 * (1 + slope * p->source_scale) / (3 * slope);
+
+		if (summit < fmin(p->scale, p->lod200_scale))
+			greatest = fmax(greatest, area_factor(p, summit));
+	}
+	return greatest;
+}
+
+size_t
+ty_count(size_t n, const ty_parameters *p, double mean_area)
+{
+	double count = (double) n;
+
+	if (n == 0)
+		return 0;
+	if (p->count > 0)
+		count = (double) p->count;
+	else if (p->count_rule == TY_RADICAL)
+		count *= radical_share(p);
+	else if (mean_area > 0)
+		count /= greatest_area_factor(p);
+	count = floor(count * (1 + COUNT_TOLERANCE));
+	if (!(count >= 1))
+		return 1;
+	return count < (double) n ? (size_t) count : n;
+}
+
+void
+ty_rectangle_sides(double area, double ratio, double *width, double *length)
+{
+	*width = sqrt(area * ratio);
+	*length = sqrt(area / ratio);
+}
+
+void
+ty_rectangle(ty_point center, double area, double ratio, double ux, double uy, ty_point ring[5])
+{
+	double width, length;
+	ty_point along, across;
+
+	ty_rectangle_sides(area, ratio, &width, &length);
+	along = (ty_point){0.5 * length * ux, 0.5 * length * uy};
+	across = (ty_point){0.5 * width * -uy, 0.5 * width * ux};
+	ring[0] = (ty_point){center.x - along.x - across.x, center.y - along.y - across.y};
+	ring[1] = (ty_point){center.x + along.x - across.x, center.y + along.y - across.y};
+	ring[2] = (ty_point){center.x + along.x + across.x, center.y + along.y + across.y};
+	ring[3] = (ty_point){center.x - along.x + across.x, center.y - along.y + across.y};
+	ring[4] = ring[0];
+}
+
+double
+ty_orientation_degrees(double ux, double uy)
+{
+	double degrees = atan2(uy, ux) * DEGREES_PER_RADIAN;
+
+	return degrees >= 180 || degrees < 0 ? 0 : degrees;
+}
+
+void
+ty_direction(double degrees, double *ux, double *uy)
+{
+	double turned = fmod(degrees, 180);
+
+	if (turned < 0)
+		turned += 180;
+	*ux = turned == 90 ? 0 : cos(turned * RADIANS_PER_DEGREE);
+	*uy = turned == 0 || turned >= 180 ? 0 : sin(turned * RADIANS_PER_DEGREE);
+	if (*uy == 0)
+		*ux = 1;
+}

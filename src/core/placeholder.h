@@ -1,0 +1,70 @@
+/*
+ * placeholder.h - how many placeholders, how large, which rectangle (spec 2.1 and 3).
+ */
+#ifndef TY_PLACEHOLDER_H
+#define TY_PLACEHOLDER_H
+
+#include "environment.h"
+#include "measure.h"
+
+typedef enum ty_count_rule
+{
+	TY_RADICAL = 0, /* radical law with exponent (Toepfer and Pillewizer 1966) */
+	TY_BLACK_WHITE	/* keeps the black-white ratio (paper) */
+} ty_count_rule;
+
+typedef enum ty_area_statistic
+{
+	TY_MEAN = 0,
+	TY_MEDIAN,
+	TY_SUM /* the members' plain sum, without the area factor */
+} ty_area_statistic;
+
+typedef enum ty_shape
+{
+	TY_RECTANGLE = 0, /* ratio and direction of the representative */
+	TY_SQUARE
+} ty_shape;
+
+/* Every value resolved: defaults applied, checks done by the caller. */
+typedef struct ty_parameters
+{
+	double scale;		 /* m_r, denominator, >= source_scale */
+	double s_u;			 /* 0 .. 1 */
+	double source_scale; /* m25 > 0 */
+	double lod200_scale; /* m200 > source_scale */
+	double exponent;	 /* x >= 0 */
+	double psi;			 /* <= 1 */
+	double min_distance; /* ground units, 0: unset */
+	int64_t count;		 /* 0: unset */
+	bool law;			 /* the law's count must be reached; false when min_distance alone says when to stop */
+	ty_count_rule count_rule;
+	ty_area_statistic area_statistic;
+	ty_shape shape;
+} ty_parameters;
+
+#define TY_DEFAULT_SOURCE_SCALE 25000.0
+#define TY_DEFAULT_LOD200_SCALE 200000.0
+#define TY_DEFAULT_EXPONENT 2.0 /* repeats the paper's figures: 41 buildings give 20, 13, 10, 5 */
+#define TY_DEFAULT_PSI 0.75		/* smallest legible square at 1:200 000 for a mean building of 300 m2 (spec 3.2) */
+
+/* f_area (paper, section on size): ground units; 1 at the source scale */
+double ty_area_factor(const ty_parameters *p);
+/* psi = 1 - (m25^2 / m200^2) * mean_area_lod200 / mean_placeholder_area */
+double ty_psi(double mean_placeholder_area, double mean_area_lod200, double source_scale, double lod200_scale);
+/*
+ * How many of n buildings remain at p->scale by the law or p->count: at least 1 (0 for n = 0), at most n.
+ * mean_area: of the group's buildings, for the black-white rule; n stays where it is 0.
+ */
+size_t ty_count(size_t n, const ty_parameters *p, double mean_area);
+
+/* Ring of the rectangle, counter-clockwise and closed; ratio = width / length in (0, 1]; ux, uy unit direction of the length */
+void ty_rectangle(ty_point center, double area, double ratio, double ux, double uy, ty_point ring[5]);
+/* the two sides; NaN-free for area >= 0 and ratio in (0, 1] */
+void ty_rectangle_sides(double area, double ratio, double *width, double *length);
+/* degrees in [0, 180), counter-clockwise from the x axis; by atan2, the one value exempt from spec 2.4 */
+double ty_orientation_degrees(double ux, double uy);
+/* unit vector of degrees, normalised to direction in [0, 180) */
+void ty_direction(double degrees, double *ux, double *uy);
+
+#endif
