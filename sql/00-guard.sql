@@ -1,0 +1,2 @@
+\echo Use "CREATE EXTENSION typify" to load this file. \quit
+

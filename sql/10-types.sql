@@ -1,0 +1,94 @@
+-- 10-types.sql: the options and the placeholder rows
+
+CREATE TYPE typify_options AS (
+	source_scale double precision,
+	lod200_scale double precision,
+	exponent double precision,
+	psi double precision,
+	count bigint,
+	min_distance double precision,
+	count_rule text,
+	area_statistic text,
+	shape text,
+	min_area double precision,
+	min_side double precision,
+	max_area double precision,
+	keep_area double precision,
+	min_gap double precision,
+	alignment double precision,
+	barriers geometry,
+	barrier_width double precision
+);
+
+COMMENT ON TYPE typify_options IS
+'Options of typification, made by typify_options(). A field that is NULL is unset; defaults are applied at use. Values are checked at every use, however the composite was made. Scales are denominators. Areas and distances of ground are in units of the SRID; min_side, min_gap and barrier_width are millimetres, max_area and keep_area square millimetres on the map.';
+
+COMMENT ON COLUMN typify_options.source_scale IS
+'m25: denominator of the detailed level of detail. Above 0; default 25000.';
+COMMENT ON COLUMN typify_options.lod200_scale IS
+'m200: denominator of the coarse level of detail. Larger than source_scale; default 200000.';
+COMMENT ON COLUMN typify_options.exponent IS
+'x of the radical law n * (m25 / m_r)^(x/2). At least 0; default 2, which repeats the figures of the paper (1 is the law as it is printed there). Beyond lod200_scale the further reduction takes at least 4.';
+COMMENT ON COLUMN typify_options.psi IS
+'How far the sizes of the coarse level pull the sizes of placeholders (paper, section on size). At most 1; default 0.75. See typify_psi.';
+COMMENT ON COLUMN typify_options.count IS
+'How many placeholders, instead of the law. At least 1.';
+COMMENT ON COLUMN typify_options.min_distance IS
+'Go on until the shortest edge between placeholders is at least this long, in units of the SRID. Alone it decides; with count, count_rule or exponent set, both conditions must hold. 0 is no condition.';
+COMMENT ON COLUMN typify_options.count_rule IS
+'radical (default; Toepfer and Pillewizer 1966) or black_white (paper: keeps the share of ink, n / greatest area factor up to the scale; all n where areas are 0).';
+COMMENT ON COLUMN typify_options.area_statistic IS
+'What a placeholder takes from the areas of its members: mean (default, paper), median, or sum: their plain sum without the area factor.';
+COMMENT ON COLUMN typify_options.shape IS
+'rectangle (default, paper: ratio and direction of the representative), square (of equal area), footprint or auto (both not supported yet).';
+COMMENT ON COLUMN typify_options.min_area IS
+'A smaller building adds nothing to count, position or mean. Square units of the SRID. Not supported yet, except 0 (off).';
+COMMENT ON COLUMN typify_options.min_side IS 'Shortest side of a placeholder, mm on the map. Not supported yet.';
+COMMENT ON COLUMN typify_options.max_area IS 'Largest area that a placeholder grows to, mm2 on the map. Not supported yet.';
+COMMENT ON COLUMN typify_options.keep_area IS 'Buildings as large as this on the map keep their size, mm2. Not supported yet.';
+COMMENT ON COLUMN typify_options.min_gap IS 'Smallest gap between placeholders, mm on the map. Not supported yet.';
+COMMENT ON COLUMN typify_options.alignment IS
+'How much longer edges count that leave a row of buildings. Not supported yet, except 0 (off).';
+COMMENT ON COLUMN typify_options.barriers IS
+'Lines that no merge crosses. Not supported yet, except an EMPTY geometry (off). Pass options with a large geometry as a scalar sub-select.';
+COMMENT ON COLUMN typify_options.barrier_width IS
+'Width of the line symbol of barriers, mm on the map. Not supported yet, except 0 (off).';
+
+CREATE TYPE typify_placeholder AS (
+	id bigint,
+	geom geometry,
+	member_count integer,
+	members bigint[],
+	area double precision,
+	width double precision,
+	length double precision,
+	orientation double precision
+);
+
+COMMENT ON TYPE typify_placeholder IS
+'A placeholder building. id: of its representative, the member with the largest area. geom: its rectangle, NULL when it has no size and is not drawn. member_count, members: how many and which buildings it represents, ids ascending. area, width, length: square units and units of the SRID. orientation: of the longer side, degrees in [0, 180) counter-clockwise from the x axis.';
+
+CREATE FUNCTION typify_options(
+	source_scale double precision DEFAULT NULL,
+	lod200_scale double precision DEFAULT NULL,
+	exponent double precision DEFAULT NULL,
+	psi double precision DEFAULT NULL,
+	count bigint DEFAULT NULL,
+	min_distance double precision DEFAULT NULL,
+	count_rule text DEFAULT NULL,
+	area_statistic text DEFAULT NULL,
+	shape text DEFAULT NULL,
+	min_area double precision DEFAULT NULL,
+	min_side double precision DEFAULT NULL,
+	max_area double precision DEFAULT NULL,
+	keep_area double precision DEFAULT NULL,
+	min_gap double precision DEFAULT NULL,
+	alignment double precision DEFAULT NULL,
+	barriers geometry DEFAULT NULL,
+	barrier_width double precision DEFAULT NULL)
+RETURNS typify_options
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE;
+
+COMMENT ON FUNCTION typify_options IS
+'Makes options, by name: typify_options(exponent => 1, shape => ''square''). Arguments that are left out stay NULL, which means unset. Fields and units: see the type of the same name. Errors: 22023 for a value that is not allowed, naming the argument, the value and what is allowed. An option that is not supported yet is accepted here and refused where it is used (0A000).';

@@ -1,0 +1,229 @@
+-- 30-aggregates.sql: typify and typify_placeholders, with their support functions
+
+CREATE FUNCTION typify_combine(internal, internal)
+RETURNS internal
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
+
+COMMENT ON FUNCTION typify_combine(internal, internal) IS
+'Support of typify and typify_placeholders: joins the buildings of two partial groups. Errors as of typify for groups of two SRIDs or of varying parameters.';
+
+CREATE FUNCTION typify_serialize(internal)
+RETURNS bytea
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE COST 10;
+
+COMMENT ON FUNCTION typify_serialize(internal) IS
+'Support of typify and typify_placeholders: a partial group on its way to another process, 56 bytes a building. Error 54000 above 1 GB: SET max_parallel_workers_per_gather = 0.';
+
+CREATE FUNCTION typify_deserialize(bytea, internal)
+RETURNS internal
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE COST 10;
+
+COMMENT ON FUNCTION typify_deserialize(bytea, internal) IS
+'Support of typify and typify_placeholders: takes in what typify_serialize wrote.';
+
+CREATE FUNCTION typify_final(internal)
+RETURNS geometry
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10000;
+
+COMMENT ON FUNCTION typify_final(internal) IS
+'Support of typify: typifies the buildings of a group.';
+
+CREATE FUNCTION typify_placeholders_final(internal)
+RETURNS typify_placeholder[]
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10000;
+
+COMMENT ON FUNCTION typify_placeholders_final(internal) IS
+'Support of typify_placeholders: typifies the buildings of a group.';
+
+CREATE FUNCTION typify_transition(internal, geometry, double precision)
+RETURNS internal
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
+
+COMMENT ON FUNCTION typify_transition(internal, geometry, double precision) IS
+'Support of typify: measures a building and adds it to its group.';
+
+CREATE AGGREGATE typify(
+	geom geometry,
+	scale double precision)
+(
+	SFUNC = typify_transition,
+	STYPE = internal,
+	SSPACE = 1024,
+	FINALFUNC = typify_final,
+	COMBINEFUNC = typify_combine,
+	SERIALFUNC = typify_serialize,
+	DESERIALFUNC = typify_deserialize,
+	PARALLEL = SAFE
+);
+
+COMMENT ON AGGREGATE typify(geometry, double precision) IS
+'Typifies the buildings of a group by mesh simplification (Burghardt and Cecconi 2003, 2007): a GEOMETRYCOLLECTION of one rectangle per drawn placeholder, in canonical order, with the SRID of the input; ST_Dump gives rows. Any order of rows, serial or parallel, gives the same bytes. NULL for a group without a usable row. Placeholders without size (of points, lines) are left out with a WARNING. geom: polygons, lines or points in a projected coordinate system. scale: the denominator, at least source_scale (25000 unless set). A row whose geometry is NULL or EMPTY is passed over. Errors: 22023 for a geographic or a second SRID, a coordinate or parameter that is not finite or out of range, and parameters that vary inside a group; 22004 for a NULL scale or s_u; 0A000 for curves, TINs, polyhedral surfaces, collections and options that are not supported yet; 54000 for a result above 1 GB.';
+
+CREATE FUNCTION typify_transition(internal, geometry, double precision, double precision)
+RETURNS internal
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
+
+COMMENT ON FUNCTION typify_transition(internal, geometry, double precision, double precision) IS
+'Support of typify: measures a building and adds it to its group.';
+
+CREATE AGGREGATE typify(
+	geom geometry,
+	scale double precision,
+	s_u double precision)
+(
+	SFUNC = typify_transition,
+	STYPE = internal,
+	SSPACE = 1024,
+	FINALFUNC = typify_final,
+	COMBINEFUNC = typify_combine,
+	SERIALFUNC = typify_serialize,
+	DESERIALFUNC = typify_deserialize,
+	PARALLEL = SAFE
+);
+
+COMMENT ON AGGREGATE typify(geometry, double precision, double precision) IS
+'Typifies the buildings of a group by mesh simplification (Burghardt and Cecconi 2003, 2007): a GEOMETRYCOLLECTION of one rectangle per drawn placeholder, in canonical order, with the SRID of the input; ST_Dump gives rows. Any order of rows, serial or parallel, gives the same bytes. NULL for a group without a usable row. Placeholders without size (of points, lines) are left out with a WARNING. geom: polygons, lines or points in a projected coordinate system. scale: the denominator, at least source_scale (25000 unless set). s_u: density control in 0 .. 1; 0, the default, always merges the closest two. A row whose geometry is NULL or EMPTY is passed over. Errors: 22023 for a geographic or a second SRID, a coordinate or parameter that is not finite or out of range, and parameters that vary inside a group; 22004 for a NULL scale or s_u; 0A000 for curves, TINs, polyhedral surfaces, collections and options that are not supported yet; 54000 for a result above 1 GB.';
+
+CREATE FUNCTION typify_transition(internal, geometry, double precision, double precision, typify_options)
+RETURNS internal
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
+
+COMMENT ON FUNCTION typify_transition(internal, geometry, double precision, double precision, typify_options) IS
+'Support of typify: measures a building and adds it to its group.';
+
+CREATE AGGREGATE typify(
+	geom geometry,
+	scale double precision,
+	s_u double precision,
+	options typify_options)
+(
+	SFUNC = typify_transition,
+	STYPE = internal,
+	SSPACE = 1024,
+	FINALFUNC = typify_final,
+	COMBINEFUNC = typify_combine,
+	SERIALFUNC = typify_serialize,
+	DESERIALFUNC = typify_deserialize,
+	PARALLEL = SAFE
+);
+
+COMMENT ON AGGREGATE typify(geometry, double precision, double precision, typify_options) IS
+'Typifies the buildings of a group by mesh simplification (Burghardt and Cecconi 2003, 2007): a GEOMETRYCOLLECTION of one rectangle per drawn placeholder, in canonical order, with the SRID of the input; ST_Dump gives rows. Any order of rows, serial or parallel, gives the same bytes. NULL for a group without a usable row. Placeholders without size (of points, lines) are left out with a WARNING. geom: polygons, lines or points in a projected coordinate system. scale: the denominator, at least source_scale (25000 unless set). s_u: density control in 0 .. 1; 0, the default, always merges the closest two. options: see typify_options; NULL sets none. A row whose geometry is NULL or EMPTY is passed over. Errors: 22023 for a geographic or a second SRID, a coordinate or parameter that is not finite or out of range, and parameters that vary inside a group; 22004 for a NULL scale or s_u; 0A000 for curves, TINs, polyhedral surfaces, collections and options that are not supported yet; 54000 for a result above 1 GB.';
+
+CREATE FUNCTION typify_placeholders_transition(internal, geometry, bigint, double precision)
+RETURNS internal
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
+
+COMMENT ON FUNCTION typify_placeholders_transition(internal, geometry, bigint, double precision) IS
+'Support of typify_placeholders: measures a building and adds it to its group.';
+
+CREATE AGGREGATE typify_placeholders(
+	geom geometry,
+	id bigint,
+	scale double precision)
+(
+	SFUNC = typify_placeholders_transition,
+	STYPE = internal,
+	SSPACE = 1024,
+	FINALFUNC = typify_placeholders_final,
+	COMBINEFUNC = typify_combine,
+	SERIALFUNC = typify_serialize,
+	DESERIALFUNC = typify_deserialize,
+	PARALLEL = SAFE
+);
+
+COMMENT ON AGGREGATE typify_placeholders(geometry, bigint, double precision) IS
+'Typifies the buildings of a group as typify does and says who became what: an array of typify_placeholder in canonical order (element k + 1 is number k of typify_cluster); unnest gives rows. Every building is a member of exactly one placeholder; one without size has geom NULL and raises a WARNING. NULL for a group without a usable row. id: a key of the building inside its group. scale: the denominator, at least source_scale (25000 unless set). A row whose geometry is NULL or EMPTY is passed over. Errors: 22023 for a geographic or a second SRID, a coordinate or parameter that is not finite or out of range, and parameters that vary inside a group; 22004 for a NULL scale or s_u; 0A000 for curves, TINs, polyhedral surfaces, collections and options that are not supported yet; 54000 for a result above 1 GB. Also 22004 for a NULL id and 22023 for an id that occurs twice in a group.';
+
+CREATE FUNCTION typify_placeholders_transition(internal, geometry, bigint, double precision, double precision)
+RETURNS internal
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
+
+COMMENT ON FUNCTION typify_placeholders_transition(internal, geometry, bigint, double precision, double precision) IS
+'Support of typify_placeholders: measures a building and adds it to its group.';
+
+CREATE AGGREGATE typify_placeholders(
+	geom geometry,
+	id bigint,
+	scale double precision,
+	s_u double precision)
+(
+	SFUNC = typify_placeholders_transition,
+	STYPE = internal,
+	SSPACE = 1024,
+	FINALFUNC = typify_placeholders_final,
+	COMBINEFUNC = typify_combine,
+	SERIALFUNC = typify_serialize,
+	DESERIALFUNC = typify_deserialize,
+	PARALLEL = SAFE
+);
+
+COMMENT ON AGGREGATE typify_placeholders(geometry, bigint, double precision, double precision) IS
+'Typifies the buildings of a group as typify does and says who became what: an array of typify_placeholder in canonical order (element k + 1 is number k of typify_cluster); unnest gives rows. Every building is a member of exactly one placeholder; one without size has geom NULL and raises a WARNING. NULL for a group without a usable row. id: a key of the building inside its group. scale: the denominator, at least source_scale (25000 unless set). s_u: density control in 0 .. 1; 0, the default, always merges the closest two. A row whose geometry is NULL or EMPTY is passed over. Errors: 22023 for a geographic or a second SRID, a coordinate or parameter that is not finite or out of range, and parameters that vary inside a group; 22004 for a NULL scale or s_u; 0A000 for curves, TINs, polyhedral surfaces, collections and options that are not supported yet; 54000 for a result above 1 GB. Also 22004 for a NULL id and 22023 for an id that occurs twice in a group.';
+
+CREATE FUNCTION typify_placeholders_transition(internal, geometry, bigint, double precision, double precision, typify_options)
+RETURNS internal
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
+
+COMMENT ON FUNCTION typify_placeholders_transition(internal, geometry, bigint, double precision, double precision, typify_options) IS
+'Support of typify_placeholders: measures a building and adds it to its group.';
+
+CREATE AGGREGATE typify_placeholders(
+	geom geometry,
+	id bigint,
+	scale double precision,
+	s_u double precision,
+	options typify_options)
+(
+	SFUNC = typify_placeholders_transition,
+	STYPE = internal,
+	SSPACE = 1024,
+	FINALFUNC = typify_placeholders_final,
+	COMBINEFUNC = typify_combine,
+	SERIALFUNC = typify_serialize,
+	DESERIALFUNC = typify_deserialize,
+	PARALLEL = SAFE
+);
+
+COMMENT ON AGGREGATE typify_placeholders(geometry, bigint, double precision, double precision, typify_options) IS
+'Typifies the buildings of a group as typify does and says who became what: an array of typify_placeholder in canonical order (element k + 1 is number k of typify_cluster); unnest gives rows. Every building is a member of exactly one placeholder; one without size has geom NULL and raises a WARNING. NULL for a group without a usable row. id: a key of the building inside its group. scale: the denominator, at least source_scale (25000 unless set). s_u: density control in 0 .. 1; 0, the default, always merges the closest two. options: see typify_options; NULL sets none. A row whose geometry is NULL or EMPTY is passed over. Errors: 22023 for a geographic or a second SRID, a coordinate or parameter that is not finite or out of range, and parameters that vary inside a group; 22004 for a NULL scale or s_u; 0A000 for curves, TINs, polyhedral surfaces, collections and options that are not supported yet; 54000 for a result above 1 GB. Also 22004 for a NULL id and 22023 for an id that occurs twice in a group.';
+
+CREATE FUNCTION typify_placeholders_transition(internal, geometry, bigint, double precision, double precision, typify_options, double precision)
+RETURNS internal
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
+
+COMMENT ON FUNCTION typify_placeholders_transition(internal, geometry, bigint, double precision, double precision, typify_options, double precision) IS
+'Support of typify_placeholders: measures a building and adds it to its group.';
+
+CREATE AGGREGATE typify_placeholders(
+	geom geometry,
+	id bigint,
+	scale double precision,
+	s_u double precision,
+	options typify_options,
+	importance double precision)
+(
+	SFUNC = typify_placeholders_transition,
+	STYPE = internal,
+	SSPACE = 1024,
+	FINALFUNC = typify_placeholders_final,
+	COMBINEFUNC = typify_combine,
+	SERIALFUNC = typify_serialize,
+	DESERIALFUNC = typify_deserialize,
+	PARALLEL = SAFE
+);
+
+COMMENT ON AGGREGATE typify_placeholders(geometry, bigint, double precision, double precision, typify_options, double precision) IS
+'Typifies the buildings of a group as typify does and says who became what: an array of typify_placeholder in canonical order (element k + 1 is number k of typify_cluster); unnest gives rows. Every building is a member of exactly one placeholder; one without size has geom NULL and raises a WARNING. NULL for a group without a usable row. id: a key of the building inside its group. scale: the denominator, at least source_scale (25000 unless set). s_u: density control in 0 .. 1; 0, the default, always merges the closest two. options: see typify_options; NULL sets none. importance: at least 1, NULL counts as 1; other values are not supported yet. A row whose geometry is NULL or EMPTY is passed over. Errors: 22023 for a geographic or a second SRID, a coordinate or parameter that is not finite or out of range, and parameters that vary inside a group; 22004 for a NULL scale or s_u; 0A000 for curves, TINs, polyhedral surfaces, collections and options that are not supported yet; 54000 for a result above 1 GB. Also 22004 for a NULL id and 22023 for an id that occurs twice in a group.';

@@ -1,0 +1,42 @@
+/*
+ * call.h - what one aggregate or window call in a query remembers between rows and groups: its parameters, parsed
+ * as rarely as its arguments can change, and the SRIDs it has looked up.
+ */
+#ifndef TY_CALL_H
+#define TY_CALL_H
+
+#include "compat.h"
+#include "constancy.h"
+#include "core/placeholder.h"
+#include "srid.h"
+
+/* scale, s_u, options; s_u and options may not be given */
+#define TY_CALL_ARGUMENTS 3
+
+typedef struct ty_call
+{
+	MemoryContext context; /* lives as long as the plan node */
+	ty_constancy constancy;
+	int given; /* 1 .. TY_CALL_ARGUMENTS */
+	bool parsed;
+	NullableDatum arguments[TY_CALL_ARGUMENTS]; /* what parameters were parsed from; unused when constant */
+	ty_parameters parameters;
+	uint64 generation; /* counts how often parameters changed */
+	ty_srid_cache srids;
+} ty_call;
+
+/*
+ * The call of an aggregate's transition function or of a window function, made when asked for the first time.
+ * The parameters start at argument `first`; the geometry is argument `geometry`.
+ */
+extern ty_call *ty_call_of(FunctionCallInfo fcinfo, int first, int geometry);
+
+/*
+ * The parameters for a row; arguments holds call->given values. They stay where they are: another generation
+ * means that their values changed.
+ */
+extern const ty_parameters *ty_call_parameters(ty_call *call, const NullableDatum *arguments, bool group_begins);
+
+extern _Noreturn void ty_refuse_varying_parameters(void);
+
+#endif

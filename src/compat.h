@@ -1,0 +1,25 @@
+/*
+ * compat.h - PostgreSQL as all files of this side include it; every difference between versions 14 to 18 is here.
+ */
+#ifndef TY_COMPAT_H
+#define TY_COMPAT_H
+
+#include "postgres.h"
+#include "fmgr.h"
+
+#if PG_VERSION_NUM < 140000
+#error "typify needs PostgreSQL 14 or later"
+#endif
+
+#if PG_VERSION_NUM >= 160000
+#include "varatt.h"
+#endif
+
+/* 18 asks whether a deferrable key will do */
+#if PG_VERSION_NUM >= 180000
+#define ty_primary_key_of(relation) RelationGetPrimaryKeyIndex(relation, false)
+#else
+#define ty_primary_key_of(relation) RelationGetPrimaryKeyIndex(relation)
+#endif
+
+#endif

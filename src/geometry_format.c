@@ -1,0 +1,476 @@
+/*
+ * geometry_format.c - see geometry_format.h.
+ *
+ * A stored geometry: 3 bytes of SRID, 1 byte of flags, in version 2 optionally 8 bytes of further flags,
+ * optionally a box of floats, then the geometry. A geometry is a type, a count and what is counted: points; rings
+ * (their sizes, padded to 8 bytes, then their points); or geometries, each again with type and count.
+ */
+#include "geometry_format.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define FLAG_Z 0x01
+#define FLAG_M 0x02
+#define FLAG_BOX 0x04
+#define FLAG_GEODETIC 0x08
+#define FLAG_EXTENDED 0x10 /* version 2 only: 8 bytes of further flags */
+#define FLAG_VERSION_2 0x40
+
+#define HEADER_SIZE 4
+#define BOX_SIZE (4 * sizeof(float))
+#define RING_POINTS 5
+
+/* types as the grammar of the body sees them */
+typedef enum body_kind
+{
+	BODY_UNKNOWN = 0,
+	BODY_POINTS,
+	BODY_RINGS,
+	BODY_GEOMETRIES
+} body_kind;
+
+typedef struct type_entry
+{
+	const char *name;
+	body_kind kind;
+} type_entry;
+
+static const type_entry types[] = {
+	{"unknown", BODY_UNKNOWN},
+	{"Point", BODY_POINTS},
+	{"LineString", BODY_POINTS},
+	{"Polygon", BODY_RINGS},
+	{"MultiPoint", BODY_GEOMETRIES},
+	{"MultiLineString", BODY_GEOMETRIES},
+	{"MultiPolygon", BODY_GEOMETRIES},
+	{"GeometryCollection", BODY_GEOMETRIES},
+	{"CircularString", BODY_POINTS},
+	{"CompoundCurve", BODY_GEOMETRIES},
+	{"CurvePolygon", BODY_GEOMETRIES},
+	{"MultiCurve", BODY_GEOMETRIES},
+	{"MultiSurface", BODY_GEOMETRIES},
+	{"PolyhedralSurface", BODY_GEOMETRIES},
+	{"Triangle", BODY_POINTS},
+	{"Tin", BODY_GEOMETRIES},
+};
+
+#define TYPE_COUNT (sizeof(types) / sizeof(types[0]))
+
+/* what is still unread; stride is the size of one point */
+typedef struct cursor
+{
+	const unsigned char *at, *end;
+	size_t stride;
+} cursor;
+
+static size_t
+left(const cursor *c)
+{
+	return (size_t) (c->end - c->at);
+}
+
+static bool
+take_number(cursor *c, uint32_t *number)
+{
+	if (left(c) < sizeof(*number))
+		return false;
+	memcpy(number, c->at, sizeof(*number));
+	c->at += sizeof(*number);
+	return true;
+}
+
+static bool
+take_bytes(cursor *c, size_t size, const unsigned char **bytes)
+{
+	if (left(c) < size)
+		return false;
+	*bytes = c->at;
+	c->at += size;
+	return true;
+}
+
+static bool
+take_points(cursor *c, uint32_t n, const unsigned char **points)
+{
+	return n <= left(c) / c->stride && take_bytes(c, n * c->stride, points);
+}
+
+static bool
+take_type_and_count(cursor *c, uint32_t *type, uint32_t *count)
+{
+	return take_number(c, type) && take_number(c, count) && *type > 0 && *type < TYPE_COUNT;
+}
+
+/* The table of ring sizes, padded to an even number of entries. */
+static bool
+take_ring_sizes(cursor *c, uint32_t rings, const unsigned char **sizes)
+{
+	size_t entries = (size_t) rings + (rings & 1);
+
+	return entries <= left(c) / sizeof(uint32_t) && take_bytes(c, entries * sizeof(uint32_t), sizes);
+}
+
+static uint32_t
+ring_size(const unsigned char *sizes, uint32_t ring)
+{
+	uint32_t n;
+
+	memcpy(&n, sizes + ring * sizeof(n), sizeof(n));
+	return n;
+}
+
+/* 21 bits, signed; 0 stands for unknown */
+static int32_t
+unpack_srid(const unsigned char *payload)
+{
+	int32_t srid = (payload[0] << 16 | payload[1] << 8 | payload[2]) & 0x1fffff;
+
+	return srid >= 0x100000 ? srid - 0x200000 : srid;
+}
+
+static void
+pack_header(unsigned char *payload, int32_t srid, unsigned char flags)
+{
+	payload[0] = (unsigned char) ((uint32_t) srid >> 16 & 0x1f);
+	payload[1] = (unsigned char) ((uint32_t) srid >> 8);
+	payload[2] = (unsigned char) srid;
+	payload[3] = flags;
+}
+
+/* Places the cursor on the body's type. */
+static bool
+open_payload(const unsigned char *payload, size_t size, cursor *c, int32_t *srid)
+{
+	const unsigned char *skipped;
+	unsigned flags, dimensions;
+	size_t skip = 0;
+
+	if (size < HEADER_SIZE)
+		return false;
+	*srid = unpack_srid(payload);
+	flags = payload[3];
+	dimensions = 2u + (flags & FLAG_Z ? 1 : 0) + (flags & FLAG_M ? 1 : 0);
+	c->at = payload + HEADER_SIZE;
+	c->end = payload + size;
+	c->stride = dimensions * sizeof(double);
+	if ((flags & FLAG_VERSION_2) && (flags & FLAG_EXTENDED))
+		skip += 8;
+	if (flags & FLAG_BOX)
+		skip += 2 * (flags & FLAG_GEODETIC ? 3 : dimensions) * sizeof(float);
+	return take_bytes(c, skip, &skipped);
+}
+
+/*
+ * Calls of the walker below: n points that follow one another. A false answer ends the walk.
+ */
+typedef bool (*points_visitor)(void *context, const unsigned char *points, size_t stride, uint32_t n);
+
+static bool
+walk_rings(cursor *c, uint32_t rings, points_visitor visit, void *context, bool *go_on)
+{
+	const unsigned char *sizes, *points;
+
+	if (!take_ring_sizes(c, rings, &sizes))
+		return false;
+	for (uint32_t ring = 0; ring < rings && *go_on; ring++)
+	{
+		/* without a shell the polygon counts as empty, whatever holes it has */
+		bool counts = ring_size(sizes, 0) > 0;
+
+		if (!take_points(c, ring_size(sizes, ring), &points))
+			return false;
+		*go_on = !counts || visit(context, points, c->stride, ring_size(sizes, ring));
+	}
+	return true;
+}
+
+/* Visits all points of a geometry of any type. False: corrupt. Pending geometries are counted, not stacked. */
+static bool
+walk_points(const unsigned char *payload, size_t size, points_visitor visit, void *context)
+{
+	const unsigned char *points;
+	uint32_t type, count;
+	uint64_t pending = 1;
+	int32_t srid;
+	bool go_on = true;
+	cursor c;
+
+	if (!open_payload(payload, size, &c, &srid))
+		return false;
+	for (; pending > 0 && go_on; pending--)
+	{
+		if (!take_type_and_count(&c, &type, &count))
+			return false;
+		if (types[type].kind == BODY_GEOMETRIES)
+			pending += count;
+		else if (types[type].kind == BODY_RINGS)
+		{
+			if (!walk_rings(&c, count, visit, context, &go_on))
+				return false;
+		}
+		else if (!take_points(&c, count, &points))
+			return false;
+		else
+			go_on = visit(context, points, c.stride, count);
+	}
+	return true;
+}
+
+static bool
+note_points(void *context, const unsigned char *points, size_t stride, uint32_t n)
+{
+	bool *found = context;
+
+	(void) points;
+	(void) stride;
+	*found = n > 0;
+	return !*found;
+}
+
+ty_geometry_status
+ty_geometry_has_points(const unsigned char *payload, size_t size)
+{
+	bool found = false;
+
+	if (!walk_points(payload, size, note_points, &found))
+		return TY_GEOMETRY_CORRUPT;
+	return found ? TY_GEOMETRY_OK : TY_GEOMETRY_EMPTY;
+}
+
+typedef struct not_finite
+{
+	bool found;
+	double value;
+} not_finite;
+
+static bool
+note_not_finite(void *context, const unsigned char *points, size_t stride, uint32_t n)
+{
+	not_finite *search = context;
+
+	for (uint32_t i = 0; i < n && !search->found; i++)
+		for (size_t axis = 0; axis < 2 && !search->found; axis++)
+		{
+			memcpy(&search->value, points + i * stride + axis * sizeof(double), sizeof(double));
+			search->found = !isfinite(search->value);
+		}
+	return !search->found;
+}
+
+bool
+ty_geometry_find_not_finite(const unsigned char *payload, size_t size, double *value)
+{
+	not_finite search = {false, 0};
+
+	if (!walk_points(payload, size, note_not_finite, &search) || !search.found)
+		return false;
+	*value = search.value;
+	return true;
+}
+
+static bool
+measure_polygon(cursor *c, uint32_t rings, ty_measure *m)
+{
+	const unsigned char *sizes, *points;
+
+	if (!take_ring_sizes(c, rings, &sizes))
+		return false;
+	for (uint32_t ring = 0; ring < rings; ring++)
+	{
+		if (!take_points(c, ring_size(sizes, ring), &points))
+			return false;
+		if (ring_size(sizes, 0) > 0 && ring_size(sizes, ring) > 0)
+			ty_measure_ring(m, points, c->stride, ring_size(sizes, ring), ring == 0);
+	}
+	return true;
+}
+
+/* A point, line or polygon whose type and count have been read. */
+static bool
+measure_part(cursor *c, uint32_t type, uint32_t count, ty_measure *m)
+{
+	const unsigned char *points;
+
+	if (type == TY_GEOMETRY_POLYGON)
+		return measure_polygon(c, count, m);
+	if (!take_points(c, count, &points))
+		return false;
+	if (type == TY_GEOMETRY_LINE && count > 0)
+		ty_measure_line(m, points, c->stride, count);
+	else if (type == TY_GEOMETRY_POINT)
+	{
+		if (count > 1)
+			return false;
+		if (count == 1)
+			ty_measure_point(m, points);
+	}
+	return true;
+}
+
+/* The parts of a multi geometry are of its single type: 4, 5, 6 hold 1, 2, 3. */
+static bool
+measure_parts(cursor *c, uint32_t type, uint32_t count, ty_measure *m)
+{
+	uint32_t part_type, part_count;
+
+	if (type <= TY_GEOMETRY_POLYGON)
+		return measure_part(c, type, count, m);
+	for (uint32_t part = 0; part < count && m->status == TY_OK; part++)
+		if (!take_type_and_count(c, &part_type, &part_count) || part_type != type - 3 ||
+			!measure_part(c, part_type, part_count, m))
+			return false;
+	return true;
+}
+
+static ty_geometry_status
+status_of(ty_status status)
+{
+	switch (status)
+	{
+		case TY_OK:
+			return TY_GEOMETRY_OK;
+		case TY_NOT_FINITE:
+			return TY_GEOMETRY_NOT_FINITE;
+		case TY_INTERRUPTED:
+			return TY_GEOMETRY_INTERRUPTED;
+		default:
+			return TY_GEOMETRY_NO_MEMORY;
+	}
+}
+
+ty_geometry_status
+ty_geometry_read(const ty_environment *env, const unsigned char *payload, size_t size, ty_building *building,
+				 int32_t *srid, uint32_t *type)
+{
+	cursor c;
+	ty_measure m;
+	uint32_t count;
+	bool well_formed;
+	ty_status status;
+
+	if (!open_payload(payload, size, &c, srid) || !take_type_and_count(&c, type, &count))
+		return TY_GEOMETRY_CORRUPT;
+	if (*type >= TY_GEOMETRY_COLLECTION)
+	{
+		ty_geometry_status points = ty_geometry_has_points(payload, size);
+
+		return points == TY_GEOMETRY_OK ? TY_GEOMETRY_UNSUPPORTED : points;
+	}
+	ty_measure_begin(&m, env);
+	well_formed = measure_parts(&c, *type, count, &m);
+	if (m.count == 0 && m.status == TY_OK)
+		return well_formed ? TY_GEOMETRY_EMPTY : TY_GEOMETRY_CORRUPT;
+	status = ty_measure_end(&m, building);
+	if (!well_formed)
+		return TY_GEOMETRY_CORRUPT;
+	building->id = 0;
+	return status_of(status);
+}
+
+const char *
+ty_geometry_type_name(uint32_t type)
+{
+	return types[type < TYPE_COUNT ? type : 0].name;
+}
+
+static void
+put_number(unsigned char **at, uint32_t number)
+{
+	memcpy(*at, &number, sizeof(number));
+	*at += sizeof(number);
+}
+
+/* the largest float not above d, and the smallest not below it: boxes enclose what they are the box of */
+static float
+float_below(double d)
+{
+	float f;
+
+	if (d > FLT_MAX)
+		return FLT_MAX;
+	if (d <= -FLT_MAX)
+		return -FLT_MAX;
+	f = (float) d;
+	return f <= d ? f : nextafterf(f, -FLT_MAX);
+}
+
+static float
+float_above(double d)
+{
+	return -float_below(-d);
+}
+
+/* x and y take turns: low x, high x, low y, high y */
+static void
+put_box(unsigned char *at, ty_point low, ty_point high)
+{
+	float box[4] = {float_below(low.x), float_above(high.x), float_below(low.y), float_above(high.y)};
+
+	memcpy(at, box, sizeof(box));
+}
+
+static void
+put_polygon(unsigned char **at, const ty_point ring[5])
+{
+	put_number(at, TY_GEOMETRY_POLYGON);
+	put_number(at, 1);
+	put_number(at, RING_POINTS);
+	put_number(at, 0); /* padding */
+	memcpy(*at, ring, RING_POINTS * sizeof(ty_point));
+	*at += RING_POINTS * sizeof(ty_point);
+}
+
+static void
+widen_box(ty_point *low, ty_point *high, const ty_point ring[5])
+{
+	for (int i = 0; i < RING_POINTS; i++)
+	{
+		low->x = fmin(low->x, ring[i].x);
+		low->y = fmin(low->y, ring[i].y);
+		high->x = fmax(high->x, ring[i].x);
+		high->y = fmax(high->y, ring[i].y);
+	}
+}
+
+void
+ty_geometry_write_polygon(unsigned char *payload, int32_t srid, const ty_point ring[5])
+{
+	unsigned char *at = payload + HEADER_SIZE + BOX_SIZE;
+	ty_point low = ring[0], high = ring[0];
+
+	widen_box(&low, &high, ring);
+	pack_header(payload, srid, FLAG_VERSION_2 | FLAG_BOX);
+	put_box(payload + HEADER_SIZE, low, high);
+	put_polygon(&at, ring);
+}
+
+void
+ty_collection_begin(ty_collection_writer *writer, unsigned char *payload, int32_t srid, uint32_t polygons)
+{
+	bool empty = polygons == 0;
+
+	pack_header(payload, srid, empty ? FLAG_VERSION_2 : FLAG_VERSION_2 | FLAG_BOX);
+	writer->payload = payload;
+	writer->at = payload + HEADER_SIZE + (empty ? 0 : BOX_SIZE);
+	writer->polygons = polygons;
+	writer->low = (ty_point){INFINITY, INFINITY};
+	writer->high = (ty_point){-INFINITY, -INFINITY};
+	put_number(&writer->at, TY_GEOMETRY_COLLECTION);
+	put_number(&writer->at, polygons);
+}
+
+void
+ty_collection_add(ty_collection_writer *writer, const ty_point ring[5])
+{
+	widen_box(&writer->low, &writer->high, ring);
+	put_polygon(&writer->at, ring);
+}
+
+void
+ty_collection_end(ty_collection_writer *writer)
+{
+	if (writer->polygons > 0)
+		put_box(writer->payload + HEADER_SIZE, writer->low, writer->high);
+}

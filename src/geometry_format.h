@@ -1,0 +1,81 @@
+/*
+ * geometry_format.h - how PostGIS stores a geometry, both ways, on plain bytes.
+ *
+ * Payload means the stored geometry after its varlena header. Reading understands both serialization
+ * versions (gserialized_v1 up to PostGIS 2.5, gserialized_v2 since 3.0), any flags, Z and M, at any
+ * alignment, and never reads beyond the given size. Nothing here recurses: nesting of any depth is walked
+ * in one flat pass. Writing gives version 2, byte for byte as PostGIS writes the same geometry.
+ *
+ * Knows no PostgreSQL, so that it can be fuzzed alone.
+ */
+#ifndef TY_GEOMETRY_FORMAT_H
+#define TY_GEOMETRY_FORMAT_H
+
+#include "core/environment.h"
+#include "core/measure.h"
+
+typedef enum ty_geometry_status
+{
+	TY_GEOMETRY_OK = 0,
+	TY_GEOMETRY_EMPTY,		 /* no point at all, of whatever type */
+	TY_GEOMETRY_UNSUPPORTED, /* a curve, TIN, triangle, polyhedral surface or collection that is not empty */
+	TY_GEOMETRY_CORRUPT,	 /* truncated, or not a stored geometry */
+	TY_GEOMETRY_NOT_FINITE,	 /* a coordinate is NaN or infinite, or the area overflows */
+	TY_GEOMETRY_NO_MEMORY,	 /* the environment had none */
+	TY_GEOMETRY_INTERRUPTED	 /* the environment asked to stop */
+} ty_geometry_status;
+
+/* type numbers as stored; 8 and up are curves, surfaces and TINs */
+#define TY_GEOMETRY_POINT 1
+#define TY_GEOMETRY_LINE 2
+#define TY_GEOMETRY_POLYGON 3
+#define TY_GEOMETRY_MULTIPOINT 4
+#define TY_GEOMETRY_MULTILINE 5
+#define TY_GEOMETRY_MULTIPOLYGON 6
+#define TY_GEOMETRY_COLLECTION 7
+
+/*
+ * Measures the geometry; building->id is set to 0. *srid (0: unknown) and *type are set whenever the status is
+ * not TY_GEOMETRY_CORRUPT; *building only with TY_GEOMETRY_OK.
+ */
+ty_geometry_status ty_geometry_read(const ty_environment *env, const unsigned char *payload, size_t size,
+									ty_building *building, int32_t *srid, uint32_t *type);
+
+/* Whether a geometry of any type has a point: TY_GEOMETRY_OK, TY_GEOMETRY_EMPTY or TY_GEOMETRY_CORRUPT. */
+ty_geometry_status ty_geometry_has_points(const unsigned char *payload, size_t size);
+
+/*
+ * For error messages: the first x or y that is NaN or infinite. False when there is none, that is when
+ * TY_GEOMETRY_NOT_FINITE came from the area.
+ */
+bool ty_geometry_find_not_finite(const unsigned char *payload, size_t size, double *value);
+
+/* "Polygon" for 3 and so on; "unknown" for numbers that PostGIS does not use */
+const char *ty_geometry_type_name(uint32_t type);
+
+/* payload sizes of what the writers write */
+#define TY_POLYGON_PAYLOAD ((size_t) 116)
+#define TY_COLLECTION_PAYLOAD(polygons) ((polygons) == 0 ? (size_t) 12 : 28 + (size_t) 96 * (polygons))
+
+/* A POLYGON of one closed ring of five points. payload: TY_POLYGON_PAYLOAD bytes, at any alignment. */
+void ty_geometry_write_polygon(unsigned char *payload, int32_t srid, const ty_point ring[5]);
+
+/*
+ * A GEOMETRYCOLLECTION of such polygons, written one after the other:
+ *
+ *     ty_collection_begin(&writer, payload, srid, polygons);	// TY_COLLECTION_PAYLOAD(polygons) bytes
+ *     ty_collection_add(&writer, ring); ...					// as often as said
+ *     ty_collection_end(&writer);
+ */
+typedef struct ty_collection_writer
+{
+	unsigned char *payload, *at;
+	uint32_t polygons;
+	ty_point low, high; /* the box */
+} ty_collection_writer;
+
+void ty_collection_begin(ty_collection_writer *writer, unsigned char *payload, int32_t srid, uint32_t polygons);
+void ty_collection_add(ty_collection_writer *writer, const ty_point ring[5]);
+void ty_collection_end(ty_collection_writer *writer);
+
+#endif

@@ -1,0 +1,308 @@
+/*
+ * options.c - see options.h.
+ *
+ * A composite is taken apart into one Datum a field. The table below says for every field what it is, which
+ * values it may have, and whether its behaviour is built. Values are checked when typify_options() makes a
+ * composite and again at every use, since ROW(...)::typify_options and tables bring composites of any content.
+ */
+#include "options.h"
+
+#include <math.h>
+
+#include "access/htup_details.h"
+#include "funcapi.h"
+#include "utils/builtins.h"
+#include "utils/typcache.h"
+
+#include "backend.h"
+#include "geometry.h"
+
+/* in the order of the composite's fields */
+typedef enum option
+{
+	OPTION_SOURCE_SCALE = 0,
+	OPTION_LOD200_SCALE,
+	OPTION_EXPONENT,
+	OPTION_PSI,
+	OPTION_COUNT,
+	OPTION_MIN_DISTANCE,
+	OPTION_COUNT_RULE,
+	OPTION_AREA_STATISTIC,
+	OPTION_SHAPE,
+	OPTION_MIN_AREA,
+	OPTION_MIN_SIDE,
+	OPTION_MAX_AREA,
+	OPTION_KEEP_AREA,
+	OPTION_MIN_GAP,
+	OPTION_ALIGNMENT,
+	OPTION_BARRIERS,
+	OPTION_BARRIER_WIDTH,
+	OPTIONS
+} option;
+
+typedef enum option_kind
+{
+	NUMBER_ABOVE_0,
+	NUMBER_FROM_0,
+	NUMBER_TO_1,
+	INTEGER_FROM_1,
+	WORD,
+	GEOMETRY
+} option_kind;
+
+typedef enum option_state
+{
+	BUILT,
+	OFF_OR_UNBUILT, /* 0, or an empty geometry, means off; any other value is not supported yet */
+	UNBUILT
+} option_state;
+
+typedef struct option_entry
+{
+	const char *name;
+	option_kind kind;
+	option_state state;
+	const char *words[4]; /* of a WORD, in the order of the core's enumeration */
+	const char *choice;	  /* the words as prose */
+	int built_words;
+} option_entry;
+
+static const option_entry entries[OPTIONS] = {
+	{.name = "source_scale", .kind = NUMBER_ABOVE_0},
+	{.name = "lod200_scale", .kind = NUMBER_ABOVE_0},
+	{.name = "exponent", .kind = NUMBER_FROM_0},
+	{.name = "psi", .kind = NUMBER_TO_1},
+	{.name = "count", .kind = INTEGER_FROM_1},
+	{.name = "min_distance", .kind = NUMBER_FROM_0},
+	{.name = "count_rule", .kind = WORD, .words = {"radical", "black_white"}, .choice = "radical or black_white",
+	 .built_words = 2},
+	{.name = "area_statistic", .kind = WORD, .words = {"mean", "median", "sum"}, .choice = "mean, median or sum",
+	 .built_words = 3},
+	{.name = "shape", .kind = WORD, .words = {"rectangle", "square", "footprint", "auto"},
+	 .choice = "rectangle, square, footprint or auto", .built_words = 2},
+	{.name = "min_area", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
+	{.name = "min_side", .kind = NUMBER_FROM_0, .state = UNBUILT},
+	{.name = "max_area", .kind = NUMBER_FROM_0, .state = UNBUILT},
+	{.name = "keep_area", .kind = NUMBER_FROM_0, .state = UNBUILT},
+	{.name = "min_gap", .kind = NUMBER_FROM_0, .state = UNBUILT},
+	{.name = "alignment", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
+	{.name = "barriers", .kind = GEOMETRY, .state = OFF_OR_UNBUILT},
+	{.name = "barrier_width", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
+};
+
+typedef struct option_values
+{
+	Datum value[OPTIONS];
+	bool null[OPTIONS];
+} option_values;
+
+void
+ty_refuse_value(const char *name, double value, const char *allowed)
+{
+	ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			errmsg("%s is %s, it must be %s", name, ty_number_text(value), allowed));
+}
+
+void
+ty_refuse_null(const char *name)
+{
+	ereport(ERROR, errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED), errmsg("%s must not be null", name));
+}
+
+static void
+check_number(const option_entry *entry, double value)
+{
+	if (entry->kind == NUMBER_ABOVE_0 && !(isfinite(value) && value > 0))
+		ty_refuse_value(entry->name, value, "a finite number above 0");
+	if (entry->kind == NUMBER_FROM_0 && !(isfinite(value) && value >= 0))
+		ty_refuse_value(entry->name, value, "a finite number of at least 0");
+	if (entry->kind == NUMBER_TO_1 && !(isfinite(value) && value <= 1))
+		ty_refuse_value(entry->name, value, "a finite number of at most 1");
+}
+
+/* The word's place in the entry's list, which is the value of the core's enumeration. */
+static int
+word_index(const option_entry *entry, Datum value)
+{
+	char *word = TextDatumGetCString(value);
+
+	for (int i = 0; i < (int) lengthof(entry->words) && entry->words[i] != NULL; i++)
+		if (strcmp(word, entry->words[i]) == 0)
+			return i;
+	ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			errmsg("%s is \"%s\", it must be %s", entry->name, word, entry->choice));
+}
+
+static void
+check_value(const option_entry *entry, Datum value)
+{
+	switch (entry->kind)
+	{
+		case INTEGER_FROM_1:
+			if (DatumGetInt64(value) < 1)
+				ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+						errmsg("%s is %lld, it must be at least 1", entry->name, (long long) DatumGetInt64(value)));
+			break;
+		case WORD:
+			word_index(entry, value);
+			break;
+		case GEOMETRY:
+			break;
+		default:
+			check_number(entry, DatumGetFloat8(value));
+	}
+}
+
+static double
+number_or(const option_values *options, option field, double unset)
+{
+	return options->null[field] ? unset : DatumGetFloat8(options->value[field]);
+}
+
+static int
+word_or(const option_values *options, option field, int unset)
+{
+	return options->null[field] ? unset : word_index(&entries[field], options->value[field]);
+}
+
+/* Every value by itself, then the two scales against one another. */
+static void
+check_options(const option_values *options)
+{
+	double source = number_or(options, OPTION_SOURCE_SCALE, TY_DEFAULT_SOURCE_SCALE);
+	double lod200 = number_or(options, OPTION_LOD200_SCALE, TY_DEFAULT_LOD200_SCALE);
+
+	for (int field = 0; field < OPTIONS; field++)
+		if (!options->null[field])
+			check_value(&entries[field], options->value[field]);
+	if (!(lod200 > source))
+		ty_refuse_value("lod200_scale", lod200, psprintf("larger than source_scale (%s)", ty_number_text(source)));
+}
+
+static bool
+value_is_off(const option_entry *entry, Datum value)
+{
+	return entry->kind == GEOMETRY ? !ty_geometry_datum_has_points(value) : DatumGetFloat8(value) == 0;
+}
+
+static bool
+value_is_built(const option_entry *entry, Datum value)
+{
+	if (entry->state == UNBUILT)
+		return false;
+	if (entry->state == OFF_OR_UNBUILT)
+		return value_is_off(entry, value);
+	return entry->kind != WORD || word_index(entry, value) < entry->built_words;
+}
+
+/* Nothing that is set is passed over in silence. */
+static void
+refuse_unbuilt(const option_values *options)
+{
+	for (int field = 0; field < OPTIONS; field++)
+	{
+		const option_entry *entry = &entries[field];
+
+		if (options->null[field] || value_is_built(entry, options->value[field]))
+			continue;
+		if (entry->kind == WORD)
+			ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+					errmsg("option %s => '%s' is not supported yet", entry->name,
+						   TextDatumGetCString(options->value[field])),
+					errhint("Use '%s' or '%s'.", entry->words[0], entry->words[1]));
+		ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				errmsg("option %s is not supported yet", entry->name), errhint("Leave it out, or set it to NULL."));
+	}
+}
+
+/* Fields that a composite of an older shape lacks are unset. */
+static void
+take_apart(Datum composite, option_values *options)
+{
+	HeapTupleHeader header = DatumGetHeapTupleHeader(composite);
+	TupleDesc shape = lookup_rowtype_tupdesc_domain(HeapTupleHeaderGetTypeId(header), HeapTupleHeaderGetTypMod(header),
+													false);
+	HeapTupleData tuple = {.t_len = HeapTupleHeaderGetDatumLength(header), .t_data = header};
+	int fields = shape->natts;
+	Datum *values = palloc(fields * sizeof(Datum));
+	bool *nulls = palloc(fields * sizeof(bool));
+
+	ItemPointerSetInvalid(&tuple.t_self);
+	heap_deform_tuple(&tuple, shape, values, nulls);
+	for (int field = 0; field < OPTIONS; field++)
+	{
+		options->null[field] = field >= fields || nulls[field];
+		options->value[field] = options->null[field] ? (Datum) 0 : values[field];
+	}
+	ReleaseTupleDesc(shape);
+	pfree(values);
+	pfree(nulls);
+}
+
+/* min_distance of 0 is no condition: nothing is nearer. */
+static void
+apply_options(const option_values *options, ty_parameters *p)
+{
+	p->source_scale = number_or(options, OPTION_SOURCE_SCALE, TY_DEFAULT_SOURCE_SCALE);
+	p->lod200_scale = number_or(options, OPTION_LOD200_SCALE, TY_DEFAULT_LOD200_SCALE);
+	p->exponent = number_or(options, OPTION_EXPONENT, TY_DEFAULT_EXPONENT);
+	p->psi = number_or(options, OPTION_PSI, TY_DEFAULT_PSI);
+	p->min_distance = number_or(options, OPTION_MIN_DISTANCE, 0);
+	p->count = options->null[OPTION_COUNT] ? 0 : DatumGetInt64(options->value[OPTION_COUNT]);
+	p->law = p->min_distance == 0 || !options->null[OPTION_COUNT] || !options->null[OPTION_COUNT_RULE] ||
+			 !options->null[OPTION_EXPONENT];
+	p->count_rule = (ty_count_rule) word_or(options, OPTION_COUNT_RULE, TY_RADICAL);
+	p->area_statistic = (ty_area_statistic) word_or(options, OPTION_AREA_STATISTIC, TY_MEAN);
+	p->shape = (ty_shape) word_or(options, OPTION_SHAPE, TY_RECTANGLE);
+}
+
+void
+ty_resolve_parameters(double scale, double s_u, Datum composite, bool composite_null, ty_parameters *p)
+{
+	option_values options;
+
+	memset(options.null, true, sizeof(options.null));
+	if (!composite_null)
+	{
+		take_apart(composite, &options);
+		check_options(&options);
+		refuse_unbuilt(&options);
+	}
+	memset(p, 0, sizeof(*p));
+	apply_options(&options, p);
+	if (!isfinite(scale) || scale < p->source_scale)
+		ty_refuse_value("scale", scale,
+						psprintf("a finite number of at least source_scale (%s)", ty_number_text(p->source_scale)));
+	if (!(s_u >= 0 && s_u <= 1))
+		ty_refuse_value("s_u", s_u, "between 0 and 1");
+	p->scale = scale;
+	p->s_u = s_u;
+}
+
+bool
+ty_same_parameters(const ty_parameters *a, const ty_parameters *b)
+{
+	return a->scale == b->scale && a->s_u == b->s_u && a->source_scale == b->source_scale &&
+		   a->lod200_scale == b->lod200_scale && a->exponent == b->exponent && a->psi == b->psi &&
+		   a->min_distance == b->min_distance && a->count == b->count && a->law == b->law &&
+		   a->count_rule == b->count_rule && a->area_statistic == b->area_statistic && a->shape == b->shape;
+}
+
+PG_FUNCTION_INFO_V1(typify_options);
+Datum
+typify_options(PG_FUNCTION_ARGS)
+{
+	option_values options;
+	TupleDesc shape;
+
+	if (PG_NARGS() != OPTIONS || get_call_result_type(fcinfo, NULL, &shape) != TYPEFUNC_COMPOSITE ||
+		shape->natts != OPTIONS)
+		elog(ERROR, "typify_options is not declared as this library expects");
+	for (int field = 0; field < OPTIONS; field++)
+	{
+		options.null[field] = PG_ARGISNULL(field);
+		options.value[field] = options.null[field] ? (Datum) 0 : PG_GETARG_DATUM(field);
+	}
+	check_options(&options);
+	PG_RETURN_DATUM(HeapTupleGetDatum(heap_form_tuple(BlessTupleDesc(shape), options.value, options.null)));
+}

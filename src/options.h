@@ -1,0 +1,24 @@
+/*
+ * options.h - the composite typify_options and its way into the core's parameters, with every check.
+ */
+#ifndef TY_OPTIONS_H
+#define TY_OPTIONS_H
+
+#include "compat.h"
+#include "core/placeholder.h"
+
+/*
+ * Resolves scale, s_u and options (a typify_options composite, or options_null) to parameters: every value is
+ * checked, however the composite was made, then defaults are applied. An option that is set but not built
+ * yet is an error, unless its value means off.
+ */
+extern void ty_resolve_parameters(double scale, double s_u, Datum options, bool options_null,
+								  ty_parameters *parameters);
+
+extern bool ty_same_parameters(const ty_parameters *a, const ty_parameters *b);
+
+/* The errors that all arguments share: "NAME is VALUE, it must be ALLOWED" and "NAME must not be null". */
+extern _Noreturn void ty_refuse_value(const char *name, double value, const char *allowed);
+extern _Noreturn void ty_refuse_null(const char *name);
+
+#endif

@@ -1,0 +1,29 @@
+/*
+ * srid.h - which coordinate systems are geographic: degrees are no ground units.
+ */
+#ifndef TY_SRID_H
+#define TY_SRID_H
+
+#include "compat.h"
+
+/* SRIDs that passed the check, so that each is looked up once a query. */
+typedef struct ty_srid_cache
+{
+	MemoryContext context;
+	Oid geometry_type;
+	int32 *passed;
+	int count, capacity;
+} ty_srid_cache;
+
+/* function takes a geometry as its argument number `argument`; the cache's memory comes from context */
+extern void ty_srid_cache_begin(ty_srid_cache *cache, Oid function, int argument, MemoryContext context);
+
+/*
+ * Raises an error when the SRID is known as geographic (spatial_ref_sys of the schema that PostGIS lives in). An
+ * unknown SRID is taken as metres.
+ */
+extern void ty_check_srid(ty_srid_cache *cache, int32 srid);
+
+extern _Noreturn void ty_refuse_two_srids(int32 a, int32 b);
+
+#endif

@@ -1,0 +1,174 @@
+/*
+ * window.c - the window function typify_cluster.
+ *
+ * All numbers of a partition are computed when its first row asks, and kept with the partition. A building's id is a
+ * hash of its geometry's bytes, so that rows whose measures are equal but whose bytes are not are told apart
+ * whatever order they come in.
+ */
+#include "compat.h"
+
+#include "miscadmin.h"
+#include "utils/memutils.h"
+#include "windowapi.h"
+
+#include "backend.h"
+#include "call.h"
+#include "core/group.h"
+#include "core/mesh.h"
+#include "geometry.h"
+
+#define GEOMETRY 0
+#define PARAMETERS 1
+
+#define NO_CLUSTER (-1) /* a row without geometry */
+
+/* lives with the partition, zero at first */
+typedef struct partition
+{
+	bool done;
+	int32 *cluster; /* by row */
+} partition;
+
+/* The buildings of a partition while they are gathered. */
+typedef struct gathering
+{
+	ty_call *call;
+	ty_parameters parameters;
+	uint64 generation; /* of the call's parameters at the first building; 0: there is none yet */
+	int32 srid;
+	size_t count;
+	ty_building *buildings; /* [rows] */
+} gathering;
+
+static NullableDatum
+argument_at(WindowObject window, int argument, int64 row)
+{
+	NullableDatum value;
+	bool outside;
+
+	value.value =
+		WinGetFuncArgInPartition(window, argument, (int) row, WINDOW_SEEK_HEAD, false, &value.isnull, &outside);
+	return value;
+}
+
+/* Parameters and SRID of a row that has a building, checked against those of the first. */
+static void
+check_row(gathering *g, WindowObject window, int64 row, int32 srid)
+{
+	ty_call *call = g->call;
+	bool first = g->generation == 0;
+	NullableDatum arguments[TY_CALL_ARGUMENTS];
+
+	if (first || call->constancy == TY_PER_ROW)
+	{
+		for (int i = 0; i < call->given; i++)
+			arguments[i] = argument_at(window, PARAMETERS + i, row);
+		ty_call_parameters(call, arguments, first);
+	}
+	if (first)
+	{
+		ty_check_srid(&call->srids, srid);
+		g->parameters = call->parameters;
+		g->generation = call->generation;
+		g->srid = srid;
+	}
+	if (g->generation != call->generation)
+		ty_refuse_varying_parameters();
+	if (g->srid != srid)
+		ty_refuse_two_srids(g->srid, srid);
+}
+
+/* Takes the row's building in; false when it has none. */
+static bool
+gather_row(gathering *g, WindowObject window, int64 row)
+{
+	NullableDatum geometry = argument_at(window, GEOMETRY, row);
+	ty_building building;
+	uint64 hash;
+	int32 srid;
+
+	if (geometry.isnull || !ty_measure_datum(geometry.value, &building, &srid, &hash))
+		return false;
+	building.id = (int64) hash;
+	check_row(g, window, row, srid);
+	g->buildings[g->count++] = building;
+	return true;
+}
+
+/* Marks the rows without building, gathers the others. What a row leaves behind goes with the row. */
+static void
+gather(gathering *g, WindowObject window, int64 rows, int32 *cluster)
+{
+	MemoryContext scratch = AllocSetContextCreate(CurrentMemoryContext, "typify_cluster row", ALLOCSET_SMALL_SIZES);
+
+	for (int64 row = 0; row < rows; row++)
+	{
+		MemoryContext old = MemoryContextSwitchTo(scratch);
+
+		CHECK_FOR_INTERRUPTS();
+		cluster[row] = gather_row(g, window, row) ? 0 : NO_CLUSTER;
+		MemoryContextSwitchTo(old);
+		MemoryContextReset(scratch);
+	}
+	MemoryContextDelete(scratch);
+}
+
+/* Buildings were gathered in the order of the rows that are not marked. */
+static void
+number_rows(const gathering *g, int64 rows, int32 *cluster)
+{
+	int32 *of_building = ty_allocate_array(&ty_backend_environment, g->count, sizeof(int32));
+	size_t building = 0;
+	ty_result result;
+
+	ty_check_status(ty_typify(&ty_backend_environment, g->buildings, g->count, &g->parameters, &result));
+	for (size_t k = 0; k < result.count; k++)
+		for (uint32 i = 0; i < result.placeholders[k].count; i++)
+			of_building[result.members[result.placeholders[k].first + i]] = (int32) k;
+	ty_result_free(&ty_backend_environment, &result);
+	for (int64 row = 0; row < rows; row++)
+		if (cluster[row] != NO_CLUSTER)
+			cluster[row] = of_building[building++];
+	pfree(of_building);
+}
+
+/* The cluster number of every row, in the given context. */
+static int32 *
+cluster_partition(ty_call *call, WindowObject window, MemoryContext context)
+{
+	int64 rows = WinGetPartitionRowCount(window);
+	gathering g = {.call = call};
+	int32 *cluster;
+
+	if (rows > (int64) TY_MAX_VERTICES)
+		ty_check_status(TY_TOO_MANY);
+	cluster = MemoryContextAllocHuge(context, rows * sizeof(int32));
+	g.buildings = ty_allocate_array(&ty_backend_environment, rows, sizeof(ty_building));
+	gather(&g, window, rows, cluster);
+	if (g.count > 0)
+		number_rows(&g, rows, cluster);
+	pfree(g.buildings);
+	return cluster;
+}
+
+PG_FUNCTION_INFO_V1(typify_cluster);
+Datum
+typify_cluster(PG_FUNCTION_ARGS)
+{
+	WindowObject window = PG_WINDOW_OBJECT();
+	partition *p;
+	int32 cluster;
+
+	if (!WindowObjectIsValid(window))
+		elog(ERROR, "typify_cluster was called outside of a window");
+	p = WinGetPartitionLocalMemory(window, sizeof(partition));
+	if (!p->done)
+	{
+		p->cluster = cluster_partition(ty_call_of(fcinfo, PARAMETERS, GEOMETRY), window, GetMemoryChunkContext(p));
+		p->done = true;
+	}
+	cluster = p->cluster[WinGetCurrentPosition(window)];
+	if (cluster == NO_CLUSTER)
+		PG_RETURN_NULL();
+	PG_RETURN_INT32(cluster);
+}

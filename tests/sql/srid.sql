@@ -1,0 +1,62 @@
+-- srid.sql: results carry the SRID of the input; degrees are refused, whoever asks and wherever PostGIS is
+CREATE FUNCTION pg_temp.error_of(query text) RETURNS text LANGUAGE plpgsql SET search_path FROM CURRENT AS
+$$
+DECLARE
+	code text;
+	message text;
+	hint text;
+BEGIN
+	EXECUTE query;
+	RETURN 'no error';
+EXCEPTION WHEN OTHERS THEN
+	GET STACKED DIAGNOSTICS code = RETURNED_SQLSTATE, message = MESSAGE_TEXT, hint = PG_EXCEPTION_HINT;
+	RETURN code || ': ' || message || CASE hint WHEN '' THEN '' ELSE ' / ' || hint END;
+END
+$$;
+
+SELECT srid, ST_SRID(typify(geom, 25000)) AS typified, ST_SRID((typify_placeholders(geom, 1, 25000))[1].geom) AS in_rows,
+	   ST_SRID(typify_rectangle(ST_Centroid(geom), 4, 1, 0)) AS rectangle
+FROM unnest(ARRAY[0, 2056, 3857, 4978, 999001]) AS srid, LATERAL (SELECT ST_MakeEnvelope(0, 0, 2, 2, srid) AS geom) AS b
+GROUP BY srid, geom ORDER BY srid;
+
+-- geographic systems, two-dimensional, three-dimensional and compound
+SELECT srid, pg_temp.error_of(format('SELECT typify(ST_SetSRID(ST_MakePoint(0, 0), %s), 25000)', srid))
+FROM unnest(ARRAY[4326, 4258, 4979, 4150]) AS srid ORDER BY srid;
+SELECT pg_temp.error_of('SELECT typify_placeholders(ST_SetSRID(ST_MakePoint(0, 0), 4326), 1, 25000)');
+SELECT pg_temp.error_of('SELECT typify_cluster(ST_SetSRID(ST_MakePoint(0, 0), 4326), 25000) OVER ()');
+SELECT pg_temp.error_of('SELECT typify_rectangle(ST_SetSRID(ST_MakePoint(0, 0), 4326), 1, 1, 0)');
+
+-- systems that users add
+BEGIN;
+INSERT INTO spatial_ref_sys (srid, srtext, proj4text) VALUES
+	(990001, 'GEOGCRS["mine",DATUM["d",ELLIPSOID["e",6378137,298.25]],CS[ellipsoidal,2]]', ''),
+	(990002, 'PROJCRS["mine",BASEGEOGCRS["base",DATUM["d",ELLIPSOID["e",6378137,298.25]]]]', '+proj=tmerc'),
+	(990003, NULL, '+proj=longlat +datum=WGS84'),
+	(990004, NULL, NULL),
+	(990005, NULL, '+proj=ob_tran +o_proj=longlat +o_lat_p=39 +to_meter=0.0174532925199433'),
+	(990006, 'COMPD_CS["both",GEOGCS["WGS 84"],VERT_CS["height"]]', NULL);
+SELECT srid, pg_temp.error_of(format('SELECT typify(ST_SetSRID(ST_MakePoint(0, 0), %s), 25000)', srid))
+FROM generate_series(990001, 990006) AS srid ORDER BY srid;
+ROLLBACK;
+
+-- two in a group: an error; in two groups: fine
+SELECT pg_temp.error_of('SELECT typify(ST_SetSRID(ST_MakePoint(i, 0), srid), 25000) FROM (VALUES (1, 2056), (2, 21781)) AS b (i, srid)');
+SELECT pg_temp.error_of('SELECT typify(ST_SetSRID(ST_MakePoint(i, 0), srid), 25000) FROM (VALUES (1, 0), (2, 21781)) AS b (i, srid)');
+SELECT pg_temp.error_of('SELECT typify_cluster(ST_SetSRID(ST_MakePoint(i, 0), srid), 25000) OVER () FROM (VALUES (1, 2056), (2, 21781)) AS b (i, srid)');
+SELECT srid, ST_SRID(typify(ST_MakeEnvelope(i, 0, i + 1, 1, srid), 25000)) FROM (VALUES (1, 2056), (2, 21781), (5, 2056), (6, 0)) AS b (i, srid)
+GROUP BY srid ORDER BY srid;
+
+-- nobody needs the right to read spatial_ref_sys, nor a search_path
+BEGIN;
+CREATE ROLE regress_typify_reader;
+CREATE SCHEMA regress_typify_empty;
+GRANT USAGE ON SCHEMA regress_typify_empty TO regress_typify_reader;
+REVOKE ALL ON spatial_ref_sys FROM PUBLIC;
+SELECT nspname AS postgis FROM pg_type JOIN pg_namespace ON pg_namespace.oid = typnamespace WHERE typname = 'geometry' \gset
+SELECT nspname AS typify FROM pg_type JOIN pg_namespace ON pg_namespace.oid = typnamespace WHERE typname = 'typify_options' \gset
+SET LOCAL ROLE regress_typify_reader;
+SET LOCAL search_path = regress_typify_empty;
+SELECT :postgis.ST_SRID(:typify.typify(:postgis.ST_SetSRID(:postgis.ST_MakeEnvelope(0, 0, 2, 2), 2056), 25000));
+SAVEPOINT before_error;
+SELECT :typify.typify(:postgis.ST_SetSRID(:postgis.ST_MakePoint(0, 0), 4326), 25000);
+ROLLBACK;
