@@ -545,7 +545,6 @@ free_run(run *run)
 static ty_status
 allocate_sequence(const ty_environment *env, size_t merges, bool with_cost, ty_sequence *sequence)
 {
-	*sequence = (ty_sequence){0};
 	sequence->kept = ty_allocate_array(env, merges, sizeof *sequence->kept);
 	sequence->gone = ty_allocate_array(env, merges, sizeof *sequence->gone);
 	if (with_cost)
@@ -568,9 +567,12 @@ ty_collapse(const ty_environment *env, ty_position *position, uint64_t *keys, si
 			   .sequence = sequence,
 			   .after_merge = after_merge,
 			   .context = context};
-	ty_status status = n > TY_MAX_VERTICES ? TY_TOO_MANY
-										   : allocate_sequence(env, n > least ? n - least : 0, with_cost, sequence);
+	ty_status status;
 
+	*sequence = (ty_sequence){0};
+	if (n > TY_MAX_VERTICES)
+		return TY_TOO_MANY;
+	status = allocate_sequence(env, n > least ? n - least : 0, with_cost, sequence);
 	if (status == TY_OK && n > least)
 	{
 		status = allocate_run(&run, stop.min_distance > 0);

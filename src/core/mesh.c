@@ -382,6 +382,8 @@ fill_hole(ty_mesh *mesh, hole *hole)
 		apex = a == TY_NONE ? TY_NONE : delaunay_apex(mesh, corners, a, corners[a].next);
 		if (apex == TY_NONE)
 			return TY_BROKEN;
+		if (hole->count > 2 * HOLE_INLINE && ty_interrupted(mesh->env))
+			return TY_INTERRUPTED; /* a hub's hole may take 0.1 s to fill */
 		split_hole(mesh, hole, a, corners[a].next, apex);
 	}
 	return TY_OK;

@@ -58,7 +58,7 @@ double ty_psi(double mean_placeholder_area, double mean_area_lod200, double sour
  */
 size_t ty_count(size_t n, const ty_parameters *p, double mean_area);
 
-/* Ring of the rectangle, counter-clockwise and closed; ratio = width / length in (0, 1]; ux, uy unit direction of the length */
+/* Ring, counter-clockwise and closed. ratio = width / length in (0, 1]; ux, uy: unit vector along the length. */
 void ty_rectangle(ty_point center, double area, double ratio, double ux, double uy, ty_point ring[5]);
 /* the two sides; NaN-free for area >= 0 and ratio in (0, 1] */
 void ty_rectangle_sides(double area, double ratio, double *width, double *length);
