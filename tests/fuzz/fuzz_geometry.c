@@ -1,0 +1,67 @@
+/*
+ * fuzz_geometry.c - the fear: a corrupt row makes the server read beyond it. Any bytes are read as a stored geometry,
+ * at every alignment and from memory that ends where the payload ends; what is accepted must be a sound building.
+ */
+#include "geometry_format.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void
+demand(bool holds)
+{
+	if (!holds)
+		abort();
+}
+
+static void
+check_building(const ty_building *b)
+{
+	demand(isfinite(b->x) && isfinite(b->y));
+	demand(isfinite(b->area) && b->area >= 0);
+	demand(b->ratio > 0 && b->ratio <= 1);
+	demand(b->uy > 0 || (b->uy == 0 && b->ux == 1));
+	demand(fabs(b->ux * b->ux + b->uy * b->uy - 1) < 1e-9);
+	demand(b->id == 0);
+}
+
+/* What is told about the payload must fit together. */
+static void
+check_answers(const unsigned char *payload, size_t size)
+{
+	ty_building building;
+	int32_t srid = -1;
+	uint32_t type = 0;
+	double value = 0;
+	ty_geometry_status status = ty_geometry_read(&ty_plain_environment, payload, size, &building, &srid, &type);
+	ty_geometry_status points = ty_geometry_has_points(payload, size);
+
+	demand(status <= TY_GEOMETRY_NOT_FINITE);
+	demand(points == TY_GEOMETRY_OK || points == TY_GEOMETRY_EMPTY || points == TY_GEOMETRY_CORRUPT);
+	if (status == TY_GEOMETRY_OK)
+	{
+		check_building(&building);
+		demand(points == TY_GEOMETRY_OK);
+		demand(type >= TY_GEOMETRY_POINT && type <= TY_GEOMETRY_MULTIPOLYGON);
+		demand(!ty_geometry_find_not_finite(payload, size, &value));
+	}
+	if (status == TY_GEOMETRY_EMPTY)
+		demand(points == TY_GEOMETRY_EMPTY);
+	if (status == TY_GEOMETRY_NOT_FINITE && ty_geometry_find_not_finite(payload, size, &value))
+		demand(!isfinite(value));
+	demand(ty_geometry_type_name(type) != NULL);
+}
+
+int
+LLVMFuzzerTestOneInput(const unsigned char *data, size_t size)
+{
+	size_t shift = size % 8;
+	unsigned char *memory = malloc(shift + size + 1);
+
+	demand(memory != NULL);
+	memcpy(memory + shift + 1, data, size);
+	check_answers(memory + shift + 1, size);
+	free(memory);
+	return 0;
+}

@@ -1,0 +1,20 @@
+/* compare.h - the core's collapse beside the reference, step by step: for the unit tests and the fuzzer. */
+#ifndef TY_COMPARE_H
+#define TY_COMPARE_H
+
+#include "reference.h"
+
+/*
+ * Collapses n <= REFERENCE_MAX positions, sorted along the curve, with the core and with the reference. NULL when
+ * merges, costs, positions and, after each merge, the mesh are the same; else what differs.
+ */
+const char *compare_with_reference(const ty_position *position, size_t n, double s_u, ty_stop stop,
+								   reference_candidates candidates);
+
+/*
+ * Takes points away from a set that differs while it still does. Returns how many are left; they stay sorted. The
+ * count to stop at is held down to what is left.
+ */
+size_t compare_minimise(ty_position *position, size_t n, double s_u, ty_stop stop, reference_candidates candidates);
+
+#endif

@@ -1,0 +1,57 @@
+/*
+ * reference.h - typification as slowly and plainly as the specification words it (sections 2.2 to 2.4).
+ *
+ * It shares nothing with the core but the type of a position. After every merge the whole mesh is found anew by
+ * trying all triples of vertices, with exact integers; the edge to collapse is found by looking at all of them.
+ */
+#ifndef TY_REFERENCE_H
+#define TY_REFERENCE_H
+
+#include "collapse.h"
+
+#define REFERENCE_MAX 72 /* vertices; the work grows with the fourth power */
+
+typedef bool reference_edges[REFERENCE_MAX][REFERENCE_MAX]; /* symmetric, by rank */
+
+typedef struct reference_vertex
+{
+	bool live;
+	int64_t r;			  /* centroids that it represents */
+	int64_t sum_x, sum_y; /* of them */
+	ty_position at;		  /* their mean, rounded half up */
+} reference_vertex;
+
+typedef enum reference_candidates
+{
+	REFERENCE_MESH,		/* the edges of the mesh may be collapsed */
+	REFERENCE_ALL_PAIRS /* any two vertices: the same for s_u = 0, because the closest two always share an edge */
+} reference_candidates;
+
+typedef struct reference
+{
+	size_t n, live;
+	double s_u;
+	reference_candidates candidates;
+	reference_vertex vertex[REFERENCE_MAX];
+} reference;
+
+typedef struct reference_merge
+{
+	uint32_t kept, gone;
+	double cost;
+} reference_merge;
+
+void reference_begin(reference *ref, const ty_position *position, size_t n, double s_u,
+					 reference_candidates candidates);
+bool reference_must_go_on(const reference *ref, ty_stop stop);
+/* merges once; there must be two vertices */
+reference_merge reference_step(reference *ref);
+
+/* > 0 left, 0 collinear, < 0 right */
+int reference_orientation(ty_position a, ty_position b, ty_position c);
+/* d inside the circle of a, b, c (counter-clockwise) when the point of the smallest rank is lifted a very little */
+bool reference_in_circle(const ty_position *at, uint32_t a, uint32_t b, uint32_t c, uint32_t d);
+/* The Delaunay edges of the m vertices in list, whose positions differ; at[rank]. */
+void reference_delaunay(const ty_position *at, const uint32_t *list, size_t m, reference_edges edge);
+
+#endif
