@@ -137,10 +137,10 @@ rectangle_ring(const ty_placeholder *placeholder, ty_point ring[5])
 				 placeholder->uy, ring);
 	for (int i = 0; i < 5; i++)
 		if (!isfinite(ring[i].x) || !isfinite(ring[i].y))
-			ereport(ERROR, errcode(ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE),
-					errmsg("a placeholder of area %s is too large for double precision",
-						   ty_number_text(placeholder->area)),
-					errhint("Use a smaller scale denominator."));
+			ereport(
+				ERROR, errcode(ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE),
+				errmsg("a placeholder of area %s is too large for double precision", ty_number_text(placeholder->area)),
+				errhint("Use a smaller scale denominator."));
 }
 
 Datum

@@ -38,22 +38,14 @@ typedef struct type_entry
 } type_entry;
 
 static const type_entry types[] = {
-	{"unknown", BODY_UNKNOWN},
-	{"Point", BODY_POINTS},
-	{"LineString", BODY_POINTS},
-	{"Polygon", BODY_RINGS},
-	{"MultiPoint", BODY_GEOMETRIES},
-	{"MultiLineString", BODY_GEOMETRIES},
-	{"MultiPolygon", BODY_GEOMETRIES},
-	{"GeometryCollection", BODY_GEOMETRIES},
-	{"CircularString", BODY_POINTS},
-	{"CompoundCurve", BODY_GEOMETRIES},
-	{"CurvePolygon", BODY_GEOMETRIES},
-	{"MultiCurve", BODY_GEOMETRIES},
-	{"MultiSurface", BODY_GEOMETRIES},
-	{"PolyhedralSurface", BODY_GEOMETRIES},
-	{"Triangle", BODY_POINTS},
-	{"Tin", BODY_GEOMETRIES},
+	{"unknown", BODY_UNKNOWN},		   {"Point", BODY_POINTS},
+	{"LineString", BODY_POINTS},	   {"Polygon", BODY_RINGS},
+	{"MultiPoint", BODY_GEOMETRIES},   {"MultiLineString", BODY_GEOMETRIES},
+	{"MultiPolygon", BODY_GEOMETRIES}, {"GeometryCollection", BODY_GEOMETRIES},
+	{"CircularString", BODY_POINTS},   {"CompoundCurve", BODY_GEOMETRIES},
+	{"CurvePolygon", BODY_GEOMETRIES}, {"MultiCurve", BODY_GEOMETRIES},
+	{"MultiSurface", BODY_GEOMETRIES}, {"PolyhedralSurface", BODY_GEOMETRIES},
+	{"Triangle", BODY_POINTS},		   {"Tin", BODY_GEOMETRIES},
 };
 
 #define TYPE_COUNT (sizeof(types) / sizeof(types[0]))

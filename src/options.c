@@ -74,12 +74,21 @@ static const option_entry entries[OPTIONS] = {
 	{.name = "psi", .kind = NUMBER_TO_1},
 	{.name = "count", .kind = INTEGER_FROM_1},
 	{.name = "min_distance", .kind = NUMBER_FROM_0},
-	{.name = "count_rule", .kind = WORD, .words = {"radical", "black_white"}, .choice = "radical or black_white",
+	{.name = "count_rule",
+	 .kind = WORD,
+	 .words = {"radical", "black_white"},
+	 .choice = "radical or black_white",
 	 .built_words = 2},
-	{.name = "area_statistic", .kind = WORD, .words = {"mean", "median", "sum"}, .choice = "mean, median or sum",
+	{.name = "area_statistic",
+	 .kind = WORD,
+	 .words = {"mean", "median", "sum"},
+	 .choice = "mean, median or sum",
 	 .built_words = 3},
-	{.name = "shape", .kind = WORD, .words = {"rectangle", "square", "footprint", "auto"},
-	 .choice = "rectangle, square, footprint or auto", .built_words = 2},
+	{.name = "shape",
+	 .kind = WORD,
+	 .words = {"rectangle", "square", "footprint", "auto"},
+	 .choice = "rectangle, square, footprint or auto",
+	 .built_words = 2},
 	{.name = "min_area", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
 	{.name = "min_side", .kind = NUMBER_FROM_0, .state = UNBUILT},
 	{.name = "max_area", .kind = NUMBER_FROM_0, .state = UNBUILT},
@@ -210,8 +219,8 @@ refuse_unbuilt(const option_values *options)
 					errmsg("option %s => '%s' is not supported yet", entry->name,
 						   TextDatumGetCString(options->value[field])),
 					errhint("Use '%s' or '%s'.", entry->words[0], entry->words[1]));
-		ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
-				errmsg("option %s is not supported yet", entry->name), errhint("Leave it out, or set it to NULL."));
+		ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED), errmsg("option %s is not supported yet", entry->name),
+				errhint("Leave it out, or set it to NULL."));
 	}
 }
 
@@ -220,8 +229,8 @@ static void
 take_apart(Datum composite, option_values *options)
 {
 	HeapTupleHeader header = DatumGetHeapTupleHeader(composite);
-	TupleDesc shape = lookup_rowtype_tupdesc_domain(HeapTupleHeaderGetTypeId(header), HeapTupleHeaderGetTypMod(header),
-													false);
+	TupleDesc shape =
+		lookup_rowtype_tupdesc_domain(HeapTupleHeaderGetTypeId(header), HeapTupleHeaderGetTypMod(header), false);
 	HeapTupleData tuple = {.t_len = HeapTupleHeaderGetDatumLength(header), .t_data = header};
 	int fields = shape->natts;
 	Datum *values = palloc(fields * sizeof(Datum));

@@ -112,9 +112,8 @@ remember(ty_srid_cache *cache, int32 srid)
 	if (cache->count == cache->capacity)
 	{
 		cache->capacity = cache->capacity == 0 ? 4 : 2 * cache->capacity;
-		cache->passed = cache->passed == NULL
-							? MemoryContextAlloc(cache->context, cache->capacity * sizeof(int32))
-							: repalloc(cache->passed, cache->capacity * sizeof(int32));
+		cache->passed = cache->passed == NULL ? MemoryContextAlloc(cache->context, cache->capacity * sizeof(int32))
+											  : repalloc(cache->passed, cache->capacity * sizeof(int32));
 	}
 	cache->passed[cache->count++] = srid;
 }

@@ -40,12 +40,12 @@ typedef struct run
 	size_t n;
 	double s_u;
 	ty_mesh mesh;
-	cluster *cluster; /* [n] */
-	uint32_t *size;	  /* [n] r, how many buildings a vertex represents */
-	double *key;	  /* [n] INFINITY: no edge to cover */
-	uint32_t *other;  /* [n] the other end of the key's edge */
-	bool *rekeyed;	  /* [n] the vertex has had another key than its first */
-	uint32_t *first;  /* vertices in the order of their first keys ... */
+	cluster *cluster;				/* [n] */
+	uint32_t *size;					/* [n] r, how many buildings a vertex represents */
+	double *key;					/* [n] INFINITY: no edge to cover */
+	uint32_t *other;				/* [n] the other end of the key's edge */
+	bool *rekeyed;					/* [n] the vertex has had another key than its first */
+	uint32_t *first;				/* vertices in the order of their first keys ... */
 	size_t first_count, first_next; /* ... of which those before first_next are done */
 	entry *heap;
 	size_t heap_count, heap_capacity;
@@ -513,8 +513,8 @@ allocate_run(run *run, bool with_near)
 	run->heap = ty_allocate_array(run->env, run->heap_capacity, sizeof *run->heap);
 	if (with_near)
 		run->near = ty_allocate_array(run->env, 2 * run->n, sizeof *run->near);
-	if (run->cluster == NULL || run->size == NULL || run->key == NULL || run->other == NULL ||
-		run->rekeyed == NULL || run->first == NULL || run->heap == NULL || (with_near && run->near == NULL))
+	if (run->cluster == NULL || run->size == NULL || run->key == NULL || run->other == NULL || run->rekeyed == NULL ||
+		run->first == NULL || run->heap == NULL || (with_near && run->near == NULL))
 		return TY_NO_MEMORY;
 	for (size_t v = 0; v < run->n; v++)
 	{

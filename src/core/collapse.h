@@ -34,8 +34,7 @@ typedef void (*ty_after_merge)(void *context, const ty_mesh *mesh, size_t step);
  * the caller's to free with ty_sequence_free.
  */
 ty_status ty_collapse(const ty_environment *env, ty_position *position, uint64_t *keys, size_t n, double s_u,
-					  ty_stop stop, bool with_cost, ty_after_merge after_merge, void *context,
-					  ty_sequence *sequence);
+					  ty_stop stop, bool with_cost, ty_after_merge after_merge, void *context, ty_sequence *sequence);
 void ty_sequence_free(const ty_environment *env, ty_sequence *sequence);
 
 /*

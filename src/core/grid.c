@@ -6,9 +6,9 @@
 #include <string.h>
 
 #define HILBERT_LEVELS (TY_GRID_BITS + 1) /* coordinates reach 2^30 itself */
-#define MAX_CELLS_EXPONENT 1000	 /* coordinates stay below 2^this cells, so that dividing cannot overflow */
-#define MIN_CELL_EXPONENT (-1000) /* nor underflow */
-#define POLL_INTERVAL 65536		  /* copies of one place that are sorted without a look for an interrupt */
+#define MAX_CELLS_EXPONENT 1000			  /* coordinates stay below 2^this cells, so that dividing cannot overflow */
+#define MIN_CELL_EXPONENT (-1000)		  /* nor underflow */
+#define POLL_INTERVAL 65536				  /* copies of one place that are sorted without a look for an interrupt */
 
 /* nearest whole number, halves up; exact for every finite v */
 static double

@@ -21,8 +21,8 @@ typedef struct ty_position
 
 typedef struct ty_grid
 {
-	double cell;				/* ground units a cell, a power of two */
-	double origin_x, origin_y;	/* of grid point (0, 0), in cells: whole numbers */
+	double cell;			   /* ground units a cell, a power of two */
+	double origin_x, origin_y; /* of grid point (0, 0), in cells: whole numbers */
 } ty_grid;
 
 /* The grid over n >= 1 buildings' centroids. TY_NOT_FINITE when a centroid is not finite. */

@@ -252,15 +252,14 @@ order_and_collapse(const ty_environment *env, group *g, size_t n, ty_sequence *s
 	if (keys != NULL && g->order != NULL && g->position != NULL)
 		status = ty_canonical_order(env, g->buildings, n, &g->grid, g->order, g->position, keys);
 	if (status == TY_OK)
-		status = ty_collapse(env, g->position, keys, n, g->parameters->s_u, find_stop(g, n), false, NULL, NULL,
-							 sequence);
+		status =
+			ty_collapse(env, g->position, keys, n, g->parameters->s_u, find_stop(g, n), false, NULL, NULL, sequence);
 	ty_release(env, keys);
 	return status;
 }
 
 ty_status
-ty_typify(const ty_environment *env, const ty_building *buildings, size_t n, const ty_parameters *p,
-		  ty_result *result)
+ty_typify(const ty_environment *env, const ty_building *buildings, size_t n, const ty_parameters *p, ty_result *result)
 {
 	group g = {.buildings = buildings, .parameters = p, .area_factor = ty_area_factor(p)};
 	ty_sequence sequence = {0};

@@ -10,11 +10,11 @@
 
 typedef struct ty_placeholder
 {
-	double x, y;		 /* the vertex, ground units; of a single building its very centroid, off the grid */
-	double area;		 /* A_n, ground units; 0: no size, not drawn */
+	double x, y; /* the vertex, ground units; of a single building its very centroid, off the grid */
+	double area; /* A_n, ground units; 0: no size, not drawn */
 	double width, length;
-	double ratio;		 /* of the representative, 1 for squares */
-	double ux, uy;		 /* of the representative */
+	double ratio;			 /* of the representative, 1 for squares */
+	double ux, uy;			 /* of the representative */
 	uint32_t representative; /* index into the caller's buildings */
 	uint32_t first, count;	 /* members: ty_result.members[first .. first + count) */
 } ty_placeholder;

@@ -177,9 +177,7 @@ ty_measure_point(ty_measure *m, const void *xy)
 static void
 find_centroid(const ty_measure *m, double *x, double *y)
 {
-	const ty_moment *moment = m->areal.weight != 0	  ? &m->areal
-							  : m->linear.weight != 0 ? &m->linear
-													  : &m->puntal;
+	const ty_moment *moment = m->areal.weight != 0 ? &m->areal : m->linear.weight != 0 ? &m->linear : &m->puntal;
 
 	*x = moment->x / moment->weight + m->base.x;
 	*y = moment->y / moment->weight + m->base.y;
@@ -204,7 +202,8 @@ ty_measure_end(ty_measure *m, ty_building *building)
 		if (!isfinite(building->area))
 			m->status = TY_NOT_FINITE;
 		else
-			ty_minimum_rectangle(m->points, m->count, m->points + m->capacity, &building->ratio, &building->ux, &building->uy);
+			ty_minimum_rectangle(m->points, m->count, m->points + m->capacity, &building->ratio, &building->ux,
+								 &building->uy);
 	}
 	if (m->points != m->inline_points)
 		ty_release(m->env, m->points);
@@ -293,10 +292,19 @@ along(ty_point e, ty_point a, ty_point b)
 	return e.x * (b.x - a.x) + e.y * (b.y - a.y);
 }
 
-static double
-across(ty_point e, ty_point a, ty_point b)
+/* From a corner on, the one that lies farthest in a direction: steps on while the hull still rises that way. */
+static size_t
+farthest(const ty_point *hull, size_t n, size_t corner, ty_point direction)
 {
-	return e.x * (b.y - a.y) - e.y * (b.x - a.x);
+	for (size_t steps = 0; steps < n; steps++)
+	{
+		size_t next = corner + 1 < n ? corner + 1 : 0;
+
+		if (!(along(direction, hull[corner], hull[next]) > 0))
+			break;
+		corner = next;
+	}
+	return corner;
 }
 
 static ty_point
@@ -326,11 +334,6 @@ set_direction(ty_point e, double *ux, double *uy)
 		*ux = 0;
 }
 
-/* for the corner that lies farthest in some direction: steps on while the hull still rises that way */
-#define ADVANCE(corner, rises) \
-	for (size_t steps = 0; steps < n && (rises); steps++) \
-		corner = (corner + 1) % n
-
 void
 ty_minimum_rectangle(ty_point *points, size_t n, ty_point *hull, double *ratio, double *ux, double *uy)
 {
@@ -343,25 +346,22 @@ ty_minimum_rectangle(ty_point *points, size_t n, ty_point *hull, double *ratio, 
 	n = convex_hull(points, n, hull);
 	for (size_t i = 0; n > 1 && i < n; i++)
 	{
-		ty_point e = unit(hull[i], hull[(i + 1) % n]);
+		ty_point e = unit(hull[i], hull[i + 1 < n ? i + 1 : 0]);
+		ty_point across = {-e.y, e.x};
 		double side, height;
 
-		ADVANCE(front, along(e, hull[front], hull[(front + 1) % n]) > 0);
-		if (i == 0)
-			top = back = front;
-		ADVANCE(top, across(e, hull[top], hull[(top + 1) % n]) > 0);
-		if (i == 0)
-			back = top;
-		ADVANCE(back, along(e, hull[back], hull[(back + 1) % n]) < 0);
+		front = farthest(hull, n, front, e);
+		top = farthest(hull, n, i == 0 ? front : top, across);
+		back = farthest(hull, n, i == 0 ? top : back, (ty_point){-e.x, -e.y});
 		side = along(e, hull[back], hull[front]);
-		height = across(e, hull[i], hull[top]);
+		height = along(across, hull[i], hull[top]);
 		if (side * height < least)
 		{
 			bool lengthwise = side >= height;
 
 			least = side * height;
 			*ratio = lengthwise ? height / side : side / height;
-			set_direction(lengthwise ? e : (ty_point){-e.y, e.x}, ux, uy);
+			set_direction(lengthwise ? e : across, ux, uy);
 		}
 	}
 	if (!(*ratio > 0 && *ratio <= 1))

@@ -40,11 +40,11 @@ typedef struct ty_measure
 {
 	const ty_environment *env;
 	ty_status status;
-	ty_point base;				   /* first point; everything is summed relative to it */
-	ty_point low, high;			   /* the box */
+	ty_point base;					 /* first point; everything is summed relative to it */
+	ty_point low, high;				 /* the box */
 	ty_moment areal, linear, puntal; /* the highest dimension with a weight gives the centroid */
 	double area;
-	size_t count, capacity;		   /* points of shells, lines and points: the outline that carries the rectangle */
+	size_t count, capacity; /* points of shells, lines and points: the outline that carries the rectangle */
 	ty_point *points;
 	ty_point inline_points[2 * TY_HULL_INLINE + 1]; /* the outline, then room for its hull */
 } ty_measure;

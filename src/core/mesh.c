@@ -213,7 +213,7 @@ find_edge(const ty_mesh *mesh, uint32_t s, uint32_t t)
 static void
 close_triangle(ty_mesh *mesh, uint32_t h)
 {
-	uint32_t left = ty_opposite(mesh, ty_next_in_triangle(h));	   /* apex -> target of h */
+	uint32_t left = ty_opposite(mesh, ty_next_in_triangle(h));		/* apex -> target of h */
 	uint32_t right = ty_opposite(mesh, ty_previous_in_triangle(h)); /* origin of h -> apex */
 
 	ty_mesh_bond(mesh, left, right);

@@ -202,8 +202,7 @@ sew(const builder *b, seam *s)
 
 		if (a == TY_NONE && c == TY_NONE)
 			return TY_OK;
-		if (c == TY_NONE ||
-			(a != TY_NONE && !ty_in_circle(p[s->l], p[s->r], p[a], p[c], s->l, s->r, a, c)))
+		if (c == TY_NONE || (a != TY_NONE && !ty_in_circle(p[s->l], p[s->r], p[a], p[c], s->l, s->r, a, c)))
 			close_left(b->mesh, s, a);
 		else
 			close_right(b->mesh, s, c);

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 
 #define HEADER 5
-#define MOST 64	/* points */
+#define MOST 64		/* points */
 #define COMPARED 12 /* points that the reference is given */
 
 typedef struct input

@@ -139,8 +139,14 @@ write_seed(const char *directory, int number, const void *bytes, size_t size)
 static void
 write_geometries(const char *directory)
 {
-	static const int flags[] = {0, FLAG_BOX, FLAG_Z, FLAG_Z | FLAG_M | FLAG_BOX, FLAG_GEODETIC | FLAG_BOX,
-								FLAG_VERSION_2, FLAG_VERSION_2 | FLAG_BOX, FLAG_VERSION_2 | FLAG_EXTENDED | FLAG_M};
+	static const int flags[] = {0,
+								FLAG_BOX,
+								FLAG_Z,
+								FLAG_Z | FLAG_M | FLAG_BOX,
+								FLAG_GEODETIC | FLAG_BOX,
+								FLAG_VERSION_2,
+								FLAG_VERSION_2 | FLAG_BOX,
+								FLAG_VERSION_2 | FLAG_EXTENDED | FLAG_M};
 	int number = 0;
 
 	for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)

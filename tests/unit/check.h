@@ -14,7 +14,7 @@
 #include <string.h>
 
 #define CHECK_FAILED 10 /* exit status; any other but 0 means that the program died, of a sanitizer for example */
-#define CHECK_SHOWN 5 /* failures of one test that are printed; the rest is counted */
+#define CHECK_SHOWN 5	/* failures of one test that are printed; the rest is counted */
 
 static const char *check_filter = "";
 static size_t check_failures; /* of the test that runs */
@@ -23,11 +23,11 @@ static size_t check_failed;	  /* tests of this program */
 /* true when the condition holds; else notes the failure with the printf-like message that tells the values */
 #define CHECK(condition, ...) check_note((condition), __FILE__, __LINE__, #condition, __VA_ARGS__)
 /* the same, and leaves the test: for conditions without which the rest makes no sense */
-#define NEED(condition, ...) \
-	do \
-	{ \
+#define NEED(condition, ...)                \
+	do                                      \
+	{                                       \
 		if (!CHECK(condition, __VA_ARGS__)) \
-			return; \
+			return;                         \
 	} while (0)
 #define RUN(test) check_run(#test, test)
 

@@ -176,8 +176,7 @@ check_need_of_last(const ty_position *position, const comparison *c, double s_u,
 }
 
 const char *
-compare_with_reference(const ty_position *position, size_t n, double s_u, ty_stop stop,
-					   reference_candidates candidates)
+compare_with_reference(const ty_position *position, size_t n, double s_u, ty_stop stop, reference_candidates candidates)
 {
 	static comparison c;
 	ty_position moved[REFERENCE_MAX];

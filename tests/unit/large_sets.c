@@ -4,8 +4,8 @@
 #include <math.h>
 
 const char *const large_kind_name[LARGE_KINDS] = {
-	"uniform", "clustered", "hub", "ring", "two lines", "spiral", "one point", "slanted line", "fractal",
-	"shaken lattice", "lattice",
+	"uniform",	 "clustered",	 "hub",		"ring",			  "two lines", "spiral",
+	"one point", "slanted line", "fractal", "shaken lattice", "lattice",
 };
 
 #define SIDE 10000.0 /* ground units of the box, about */

@@ -6,9 +6,9 @@
 #define WHOLE (INT64_C(1) << 30)
 
 const char *const small_kind_name[SMALL_KINDS] = {
-	"tiny range", "modest range", "whole grid", "corners", "duplicates", "lattice", "shaken lattice",
-	"axis line", "diagonal line", "slanted line", "nearly a line", "circle", "rings", "clusters in clusters",
-	"two lines", "crossing lines", "hub and rim", "parabola", "rectangles",
+	"tiny range", "modest range",	"whole grid",	"corners",		 "duplicates", "lattice", "shaken lattice",
+	"axis line",  "diagonal line",	"slanted line", "nearly a line", "circle",	   "rings",	  "clusters in clusters",
+	"two lines",  "crossing lines", "hub and rim",	"parabola",		 "rectangles",
 };
 
 /* nearest position on the grid */
@@ -49,7 +49,7 @@ on_line(random_state *random, int64_t origin, int64_t step_x, int64_t step_y, si
 
 /* whole numbers with x^2 + y^2 = 5525^2 * factor^2: 5525 = 5^2 * 13 * 17 has 180 of them, here in the first octant */
 static const int64_t circle_5525[][2] = {
-	{0, 5525}, {235, 5520}, {525, 5500}, {612, 5491}, {845, 5460}, {1036, 5427}, {1131, 5408}, {1320, 5365},
+	{0, 5525},	  {235, 5520},	{525, 5500},  {612, 5491},	{845, 5460},  {1036, 5427}, {1131, 5408}, {1320, 5365},
 	{1360, 5355}, {1547, 5304}, {2044, 5133}, {2125, 5100}, {2163, 5084}, {2340, 5005}, {2600, 4875}, {2805, 4760},
 	{2880, 4715}, {3124, 4557}, {3315, 4420}, {3468, 4301}, {3500, 4275}, {3720, 4085}, {3861, 3952},
 };
@@ -160,26 +160,45 @@ small_point(small_kind kind, random_state *random, const recipe *r, size_t n, si
 
 	switch (kind)
 	{
-		case SMALL_TINY_RANGE: return anywhere(random, r->along_x ? 3 : 2);
-		case SMALL_MODEST_RANGE: return anywhere(random, r->along_x ? 20 : 1000);
-		case SMALL_WHOLE_GRID: return anywhere(random, WHOLE);
-		case SMALL_CORNERS: return corner(random);
-		case SMALL_LATTICE: return lattice(random, r->step, r->step, n);
-		case SMALL_SHAKEN_LATTICE: return shaken(random, lattice(random, r->step, r->step, n));
-		case SMALL_AXIS_LINE: return on_line(random, r->origin, r->along_x ? r->step : 0, r->along_x ? 0 : r->step, n);
-		case SMALL_DIAGONAL_LINE: return on_line(random, r->origin, r->step, r->step, n);
-		case SMALL_SLANTED_LINE: return on_line(random, r->origin, 3 * r->step, r->step, n);
-		case SMALL_NEARLY_A_LINE: return shaken(random, on_line(random, r->origin, 3 * r->step, r->step, n));
-		case SMALL_CIRCLE: return on_circle(random, apart, r->factor);
-		case SMALL_RINGS: return on_circle(random, apart, r->factor << (i % 3 == 0 ? 0 : 1));
-		case SMALL_CLUSTERS_IN_CLUSTERS: return in_clusters(random);
-		case SMALL_TWO_LINES: return on_one_of_two_lines(random, r, n);
-		case SMALL_CROSSING_LINES: return on_a_cross(random, r, n);
-		case SMALL_HUB_AND_RIM: return i == 0 ? at(apart, apart) : on_circle(random, apart, r->factor);
-		case SMALL_PARABOLA: return on_parabola(random, n);
-		case SMALL_RECTANGLES: return lattice(random, r->step, 2 * r->step, n);
+		case SMALL_TINY_RANGE:
+			return anywhere(random, r->along_x ? 3 : 2);
+		case SMALL_MODEST_RANGE:
+			return anywhere(random, r->along_x ? 20 : 1000);
+		case SMALL_WHOLE_GRID:
+			return anywhere(random, WHOLE);
+		case SMALL_CORNERS:
+			return corner(random);
+		case SMALL_LATTICE:
+			return lattice(random, r->step, r->step, n);
+		case SMALL_SHAKEN_LATTICE:
+			return shaken(random, lattice(random, r->step, r->step, n));
+		case SMALL_AXIS_LINE:
+			return on_line(random, r->origin, r->along_x ? r->step : 0, r->along_x ? 0 : r->step, n);
+		case SMALL_DIAGONAL_LINE:
+			return on_line(random, r->origin, r->step, r->step, n);
+		case SMALL_SLANTED_LINE:
+			return on_line(random, r->origin, 3 * r->step, r->step, n);
+		case SMALL_NEARLY_A_LINE:
+			return shaken(random, on_line(random, r->origin, 3 * r->step, r->step, n));
+		case SMALL_CIRCLE:
+			return on_circle(random, apart, r->factor);
+		case SMALL_RINGS:
+			return on_circle(random, apart, r->factor << (i % 3 == 0 ? 0 : 1));
+		case SMALL_CLUSTERS_IN_CLUSTERS:
+			return in_clusters(random);
+		case SMALL_TWO_LINES:
+			return on_one_of_two_lines(random, r, n);
+		case SMALL_CROSSING_LINES:
+			return on_a_cross(random, r, n);
+		case SMALL_HUB_AND_RIM:
+			return i == 0 ? at(apart, apart) : on_circle(random, apart, r->factor);
+		case SMALL_PARABOLA:
+			return on_parabola(random, n);
+		case SMALL_RECTANGLES:
+			return lattice(random, r->step, 2 * r->step, n);
 		case SMALL_DUPLICATES:
-		case SMALL_KINDS: break;
+		case SMALL_KINDS:
+			break;
 	}
 	return anywhere(random, WHOLE);
 }

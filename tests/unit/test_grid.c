@@ -49,8 +49,8 @@ check_snap(const ty_grid *grid, const ty_building *b)
 	double y = ty_grid_y(grid, p.y);
 
 	CHECK(p.x >= 0 && p.x <= 1 << 30 && p.y >= 0 && p.y <= 1 << 30, "%a %a is at %d %d", b->x, b->y, p.x, p.y);
-	CHECK(fabs(x - b->x) <= grid->cell / 2 && fabs(y - b->y) <= grid->cell / 2,
-		  "%a %a came back as %a %a, cell %a", b->x, b->y, x, y, grid->cell);
+	CHECK(fabs(x - b->x) <= grid->cell / 2 && fabs(y - b->y) <= grid->cell / 2, "%a %a came back as %a %a, cell %a",
+		  b->x, b->y, x, y, grid->cell);
 }
 
 /* Fits a grid, and checks its promises where doubles have room for them. */
@@ -62,8 +62,8 @@ check_fit(const ty_building *b, size_t n)
 
 	NEED(ty_grid_fit(b, n, &grid) == TY_OK, "first at %a %a", b->x, b->y);
 	CHECK(is_power_of_two(grid.cell), "cell %a", grid.cell);
-	CHECK(floor(grid.origin_x) == grid.origin_x && floor(grid.origin_y) == grid.origin_y, "origin %a %a",
-		  grid.origin_x, grid.origin_y);
+	CHECK(floor(grid.origin_x) == grid.origin_x && floor(grid.origin_y) == grid.origin_y, "origin %a %a", grid.origin_x,
+		  grid.origin_y);
 	if (side > 1e-290 && side < 1e300)
 		CHECK(side / grid.cell >= 536870912.0 && side / grid.cell <= 1073741824.0, "side %a, cell %a", side, grid.cell);
 	for (size_t i = 0; i < n; i++)
@@ -264,7 +264,10 @@ draw_tying(random_state *random, ty_building *b, size_t n)
 static void
 same_values_whatever_the_row_order(void)
 {
-	enum { N = 500 };
+	enum
+	{
+		N = 500
+	};
 	static ty_building b[N], first[N];
 	uint32_t order[N];
 	ty_position position[N];

@@ -8,7 +8,7 @@
 #include <float.h>
 #include <math.h>
 
-#define NEAR(value, expected) \
+#define NEAR(value, expected)                                                                               \
 	CHECK(fabs((value) - (expected)) <= 1e-12 * fabs(expected), "%.17g instead of %.17g", (double) (value), \
 		  (double) (expected))
 
