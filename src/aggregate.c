@@ -254,10 +254,12 @@ state_typify(const state *s, ty_result *result)
 {
 	ty_check_status(ty_typify(&ty_backend_environment, s->buildings, s->count, &s->parameters, result));
 	if (result->undrawn > 0)
-		ereport(WARNING,
-				errmsg_plural("%zu placeholder has no size and is not drawn",
-							  "%zu placeholders have no size and are not drawn", result->undrawn, result->undrawn),
-				errhint("Points, lines and polygons of zero area have none."));
+		ereport(
+			WARNING,
+			errmsg_plural("%zu placeholder has no size and is not drawn",
+						  "%zu placeholders have no size and are not drawn", result->undrawn, result->undrawn),
+			errhint(
+				"Points, lines and polygons without area have none; with psi => 1 nothing has from lod200_scale on."));
 }
 
 /* Numbers that sort as the ids do. */

@@ -286,6 +286,11 @@ ty_resolve_parameters(double scale, double s_u, Datum composite, bool composite_
 		ty_refuse_value("s_u", s_u, "between 0 and 1");
 	p->scale = scale;
 	p->s_u = s_u;
+	if (!isfinite(ty_area_factor(p)))
+		ereport(ERROR, errcode(ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE),
+				errmsg("the area factor of scale %s with psi %s and source_scale %s is out of range",
+					   ty_number_text(scale), ty_number_text(p->psi), ty_number_text(p->source_scale)),
+				errhint("Use a smaller scale denominator, or a psi between 0 and 1."));
 }
 
 bool

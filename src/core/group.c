@@ -10,15 +10,16 @@
 /* ---- exact sums of areas ---- */
 
 /*
- * Areas are summed as whole multiples of 2^-90 of a power of two above the group's largest, in 128 bits: exact
- * for every area above 2^-37 of the largest, and in no case dependent on the order.
+ * Areas are summed as whole multiples of 2^-97 of a power of two above the group's largest, in 128 bits, which
+ * TY_MAX_VERTICES of them fit into: exact for every area above 2^-44 of the largest, and in no case dependent on
+ * the order. An area below 2^-97 of the largest adds nothing.
  */
 typedef struct area_scale
 {
 	double to_units, from_units;
 } area_scale;
 
-#define AREA_BITS 90
+#define AREA_BITS 97
 #define LEAST_AREA_EXPONENT (-900) /* below, 1 / unit would overflow */
 
 static area_scale

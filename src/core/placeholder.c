@@ -32,8 +32,9 @@ area_factor(const ty_parameters *p, double scale)
 {
 	double enlargement = scale / p->source_scale;
 	double fraction = (scale - p->source_scale) / (p->lod200_scale - p->source_scale);
+	double reduction = 1 - p->psi * fmin(fraction, 1);
 
-	return enlargement * enlargement * (1 - p->psi * fmin(fraction, 1));
+	return reduction == 0 ? 0 : enlargement * enlargement * reduction; /* however large the first factor is */
 }
 
 double
