@@ -155,6 +155,7 @@ restore(ty_mesh *mesh, uint32_t fresh)
 	{
 		uint32_t h = mesh->stack[--mesh->stack_count];
 
+		mesh->work++;
 		if (ty_mesh_violates(mesh, h))
 		{
 			ty_status status = flip_and_push(mesh, h, fresh);
@@ -385,6 +386,7 @@ fill_hole(ty_mesh *mesh, hole *hole)
 		if (hole->count > 2 * HOLE_INLINE && ty_interrupted(mesh->env))
 			return TY_INTERRUPTED; /* a hub's hole may take 0.1 s to fill */
 		split_hole(mesh, hole, a, corners[a].next, apex);
+		mesh->work += hole->count;
 	}
 	return TY_OK;
 }
@@ -552,25 +554,6 @@ typedef struct change
 	ty_position to;
 } change;
 
-/* lists what stays in the mesh; returns the vertex that is at the new place already, or TY_NONE */
-static uint32_t
-list_staying(const ty_mesh *mesh, ty_position to, uint32_t *list, uint64_t *keys, size_t *count)
-{
-	uint32_t met = TY_NONE;
-	size_t n = 0;
-
-	for (size_t v = 0; v < mesh->vertices; v++)
-		if (mesh->edge[v] != TY_NONE)
-		{
-			if (ty_same_position(mesh->position[v], to))
-				met = (uint32_t) v;
-			list[n] = (uint32_t) v;
-			keys[n++] = ty_hilbert_key(mesh->position[v]);
-		}
-	*count = n;
-	return met;
-}
-
 static void
 tell_all_edges(const ty_mesh *mesh)
 {
@@ -579,43 +562,65 @@ tell_all_edges(const ty_mesh *mesh)
 			tell_edge(mesh, ty_origin(mesh, h), ty_target(mesh, h));
 }
 
-static ty_status
-rebuild_from_lists(ty_mesh *mesh, const change *c, uint32_t *list, uint64_t *keys, uint32_t *met)
+/* lists the vertices of the mesh with their keys; returns how many */
+static size_t
+list_live(const ty_mesh *mesh, uint32_t *list, uint64_t *keys)
 {
-	size_t n;
-	ty_status status;
+	size_t n = 0;
 
-	*met = list_staying(mesh, c->to, list, keys, &n);
-	if (*met == TY_NONE)
-	{
-		mesh->position[c->fresh] = c->to;
-		list[n] = c->fresh;
-		keys[n++] = ty_hilbert_key(c->to);
-	}
-	status = ty_sort_keys(mesh->env, keys, list, n);
-	if (status == TY_OK)
-		status = ty_mesh_triangulate(mesh, list, keys, n);
-	if (status == TY_OK)
-		tell_all_edges(mesh);
-	mesh->rebuilds++;
-	return status;
+	for (size_t v = 0; v < mesh->vertices; v++)
+		if (mesh->edge[v] != TY_NONE)
+		{
+			list[n] = (uint32_t) v;
+			keys[n++] = ty_hilbert_key(mesh->position[v]);
+		}
+	return n;
 }
 
-/* Builds the mesh of what stays and what comes from nothing. */
+/* Building anew takes this many times the work of a corner or flip, per vertex. */
+#define WORK_OF_REBUILDING 8
+
+/* Builds the mesh of the vertices whose edge is not TY_NONE, wherever they now are. */
 static ty_status
-rebuild(ty_mesh *mesh, const change *c, uint32_t *met)
+rebuild_live(ty_mesh *mesh)
 {
 	ty_status status = TY_NO_MEMORY;
 	uint32_t *list = ty_allocate_array(mesh->env, mesh->live + 1, sizeof *list);
 	uint64_t *keys = ty_allocate_array(mesh->env, mesh->live + 1, sizeof *keys);
 
-	for (int i = 0; i < c->count; i++)
-		mesh->edge[c->leaving[i]] = TY_NONE;
 	if (list != NULL && keys != NULL)
-		status = rebuild_from_lists(mesh, c, list, keys, met);
+	{
+		size_t n = list_live(mesh, list, keys);
+
+		status = ty_sort_keys(mesh->env, keys, list, n);
+		if (status == TY_OK)
+			status = ty_mesh_triangulate(mesh, list, keys, n);
+		if (status == TY_OK)
+			tell_all_edges(mesh);
+		mesh->rebuilds++;
+		mesh->work += WORK_OF_REBUILDING * n;
+	}
 	ty_release(mesh->env, list);
 	ty_release(mesh->env, keys);
 	return status;
+}
+
+/* Makes the change by building the mesh anew. */
+static ty_status
+rebuild(ty_mesh *mesh, const change *c, uint32_t *met)
+{
+	for (int i = 0; i < c->count; i++)
+		mesh->edge[c->leaving[i]] = TY_NONE;
+	*met = TY_NONE;
+	for (size_t v = 0; v < mesh->vertices; v++)
+		if (mesh->edge[v] != TY_NONE && ty_same_position(mesh->position[v], c->to))
+			*met = (uint32_t) v;
+	if (*met == TY_NONE)
+	{
+		mesh->position[c->fresh] = c->to;
+		mesh->edge[c->fresh] = 0;
+	}
+	return rebuild_live(mesh);
 }
 
 /* a neighbour of the leaving vertices that stays; there is one while more live than leave */
@@ -693,7 +698,7 @@ ty_mesh_collapse(ty_mesh *mesh, uint32_t s, uint32_t t, ty_position to, uint32_t
 	contract(mesh, find_edge(mesh, kept, gone), kept, gone, to);
 	if (chain)
 		return TY_OK;
-	status = push_star(mesh, kept);
+	status = push_star(mesh, kept); /* whose corners are counted as work when they are popped */
 	return status == TY_OK ? restore(mesh, kept) : status;
 }
 
@@ -704,4 +709,30 @@ ty_mesh_move(ty_mesh *mesh, uint32_t v, uint32_t renamed, ty_position to, uint32
 
 	*met = TY_NONE;
 	return mesh->live <= 3 ? rebuild(mesh, &c, met) : refill(mesh, &c, met);
+}
+
+ty_status
+ty_mesh_collapse_many(ty_mesh *mesh, const uint32_t *kept, const uint32_t *gone, ty_position *place, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+	{
+		ty_position former = mesh->position[kept[i]];
+
+		mesh->position[kept[i]] = place[i];
+		mesh->edge[gone[i]] = TY_NONE;
+		place[i] = former;
+	}
+	return rebuild_live(mesh);
+}
+
+ty_status
+ty_mesh_part_many(ty_mesh *mesh, const uint32_t *kept, const uint32_t *gone, const ty_position *place, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+	{
+		mesh->position[kept[i]] = place[i];
+		mesh->edge[gone[i]] = 0;
+	}
+	mesh->live += n;
+	return rebuild_live(mesh);
 }

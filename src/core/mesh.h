@@ -38,7 +38,8 @@ typedef struct ty_mesh
 	uint32_t free_triangle;	 /* list of those given back, linked by adjacent[0], vertices TY_NONE */
 	uint32_t *stack;		 /* half-edges to examine */
 	size_t stack_count, stack_capacity;
-	uint64_t rebuilds; /* how often the mesh was built anew (degenerate changes only) */
+	uint64_t rebuilds; /* how often the mesh was built anew */
+	uint64_t work;	   /* steps of all changes: corners of stars and holes, flips, vertices built anew */
 	/* may be NULL; told of every edge that a change makes between two old vertices (and of some that it unmakes) */
 	void (*edge_made)(void *context, uint32_t a, uint32_t b);
 	void *edge_context;
@@ -63,6 +64,16 @@ ty_status ty_mesh_collapse(ty_mesh *mesh, uint32_t s, uint32_t t, ty_position to
 
 /* The vertex moves to `to` (the second half of a merge at distance 0); otherwise as ty_mesh_collapse. */
 ty_status ty_mesh_move(ty_mesh *mesh, uint32_t v, uint32_t renamed, ty_position to, uint32_t *met);
+
+/*
+ * n collapses at once, by building the mesh anew: kept[i] comes to place[i], gone[i] leaves; place[i] becomes the
+ * former place of kept[i]. No two of the 2 n vertices are the same, and no two vertices may end at one place.
+ */
+ty_status ty_mesh_collapse_many(ty_mesh *mesh, const uint32_t *kept, const uint32_t *gone, ty_position *place,
+								size_t n);
+/* Undoes ty_mesh_collapse_many, which must have been the last change. */
+ty_status ty_mesh_part_many(ty_mesh *mesh, const uint32_t *kept, const uint32_t *gone, const ty_position *place,
+							size_t n);
 
 /* Walk over the neighbours of v: h = mesh->edge[v]; do { ... } while ((h = ty_next_around(mesh, h)) != first) */
 static inline uint32_t
