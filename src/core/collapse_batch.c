@@ -90,10 +90,23 @@ isolation(const ty_run *run, ty_edge e)
 	return nearest;
 }
 
+#define FIRST_BATCH 64
+
+static ty_status
+allocate_batch(const ty_run *run, batch *b)
+{
+	b->capacity = FIRST_BATCH;
+	b->kept = ty_allocate_array(run->env, b->capacity, sizeof *b->kept);
+	b->gone = ty_allocate_array(run->env, b->capacity, sizeof *b->gone);
+	b->cost = ty_allocate_array(run->env, b->capacity, sizeof *b->cost);
+	return b->kept != NULL && b->gone != NULL && b->cost != NULL ? TY_OK : TY_NO_MEMORY;
+}
+
+/* room for one more edge */
 static ty_status
 reserve(const ty_run *run, batch *b)
 {
-	size_t capacity = b->capacity == 0 ? 64 : 2 * b->capacity;
+	size_t capacity = 2 * b->capacity;
 	uint32_t *kept, *gone;
 	double *cost;
 
@@ -105,8 +118,10 @@ reserve(const ty_run *run, batch *b)
 		b->gone = gone;
 	if ((cost = ty_reallocate_array(run->env, b->cost, capacity, sizeof *cost)) != NULL)
 		b->cost = cost;
+	if (kept == NULL || gone == NULL || cost == NULL)
+		return TY_NO_MEMORY;
 	b->capacity = capacity;
-	return kept != NULL && gone != NULL && cost != NULL ? TY_OK : TY_NO_MEMORY;
+	return TY_OK;
 }
 
 /*
@@ -244,7 +259,9 @@ ty_collapse_batch(ty_run *run, size_t most)
 
 	if (surplus(run) <= run->surplus + TY_BATCH_PATIENCE((int64_t) run->mesh.live))
 		return TY_OK;
-	status = gather(run, &b);
+	status = allocate_batch(run, &b);
+	if (status == TY_OK)
+		status = gather(run, &b);
 	if (status == TY_OK)
 		status = trim(run, most, &b);
 	if (status == TY_OK && b.count > 0)

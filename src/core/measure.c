@@ -36,28 +36,36 @@ ty_measure_begin(ty_measure *m, const ty_environment *env)
 	m->base = (ty_point){NAN, NAN};
 }
 
-/* room for n more points of the outline; behind the capacity there is as much again for the hull */
+static size_t convex_hull(ty_point *points, size_t n, ty_point *hull);
+
+/* An outline of more points is replaced by its hull whenever it has grown full: that is all that counts of it. */
+#define LONG_OUTLINE 4096
+
+/* Room for one more point of the outline; behind the capacity there is as much again for the hull. */
 static bool
-reserve(ty_measure *m, size_t n)
+make_room(ty_measure *m)
 {
-	size_t capacity = 2 * (m->count + n);
+	size_t capacity = 4 * m->capacity;
 	ty_point *points;
 
-	if (m->count + n <= m->capacity)
-		return true;
-	if (m->points == m->inline_points)
+	if (m->count >= LONG_OUTLINE)
 	{
-		points = ty_allocate_array(m->env, 2 * capacity + 1, sizeof *points);
-		if (points != NULL)
-			memcpy(points, m->points, m->count * sizeof *points);
+		size_t count = convex_hull(m->points, m->count, m->points + m->capacity);
+
+		memcpy(m->points, m->points + m->capacity, count * sizeof *m->points);
+		m->count = count;
+		if (count <= m->capacity / 2)
+			return true;
 	}
-	else
-		points = ty_reallocate_array(m->env, m->points, 2 * capacity + 1, sizeof *points);
+	points = ty_allocate_array(m->env, 2 * capacity + 1, sizeof *points);
 	if (points == NULL)
 	{
 		m->status = TY_NO_MEMORY;
 		return false;
 	}
+	memcpy(points, m->points, m->count * sizeof *points);
+	if (m->points != m->inline_points)
+		ty_release(m->env, m->points);
 	m->points = points;
 	m->capacity = capacity;
 	return true;
@@ -96,14 +104,14 @@ add_path(ty_measure *m, const void *xy, size_t stride, uint32_t n, bool outline)
 	double length = 0;
 	ty_point before = {0, 0}, first = {0, 0};
 
-	if (n == 0 || m->status != TY_OK || (outline && !reserve(m, n)))
-		return;
-	for (uint32_t i = 0; i < n; i++)
+	for (uint32_t i = 0; i < n && m->status == TY_OK; i++)
 	{
 		ty_point p = read_point(xy, stride, i);
 
-		if (!extend_box(m, p))
+		if (!extend_box(m, p) || (outline && m->count == m->capacity && !make_room(m)))
 			return;
+		if (i > 0 && ty_interrupted_at(m->env, i))
+			m->status = TY_INTERRUPTED;
 		p.x -= m->base.x;
 		p.y -= m->base.y;
 		if (outline)
@@ -120,7 +128,7 @@ add_path(ty_measure *m, const void *xy, size_t stride, uint32_t n, bool outline)
 		}
 		before = p;
 	}
-	if (!(length > 0))
+	if (n > 0 && !(length > 0))
 		add_moment(&m->puntal, 1, first.x, first.y);
 }
 

@@ -4,8 +4,8 @@
 #include <math.h>
 
 const char *const large_kind_name[LARGE_KINDS] = {
-	"uniform",	 "clustered",	 "hub",		"ring",			  "two lines", "spiral",
-	"one point", "slanted line", "fractal", "shaken lattice", "lattice",
+	"uniform", "clustered", "hub",			"ring",	   "two lines",		 "twin row",
+	"spiral",  "one point", "slanted line", "fractal", "shaken lattice", "lattice",
 };
 
 #define SIDE 10000.0 /* ground units of the box, about */
@@ -57,6 +57,10 @@ large_point(large_kind kind, random_state *random, size_t i, size_t n, double *x
 		case LARGE_TWO_LINES:
 			*x = (double) (i / 2);
 			*y = i % 2 == 0 ? 0 : SIDE;
+			break;
+		case LARGE_TWIN_ROW:
+			*x = (double) (i / 2);
+			*y = i % 2 == 0 ? 0 : 0.001;
 			break;
 		case LARGE_SPIRAL:
 			*x = SIDE * share * cos(30 * TURN * share);

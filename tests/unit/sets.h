@@ -41,6 +41,7 @@ typedef enum large_kind
 	LARGE_HUB,		 /* one point amid a circle of all others */
 	LARGE_RING,		 /* a dense crowd amid a wide ring: its outermost points have thousands of neighbours */
 	LARGE_TWO_LINES, /* exact, parallel: every vertex of one may see all of the other */
+	LARGE_TWIN_ROW,	 /* a row twice, a hair apart: with every merge the whole mesh turns */
 	LARGE_SPIRAL,
 	LARGE_ONE_POINT,	/* all copies of one */
 	LARGE_SLANTED_LINE, /* exactly collinear, not along an axis */
