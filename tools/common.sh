@@ -114,8 +114,8 @@ apt_get() {
 # The checkout may lie where the server's user cannot read it, and may hold objects for another server.
 copy_tree() {
 	mkdir "$WORKSPACE/tree"
-	tar -C "$ROOT" --exclude=./.git --exclude=./demo-output --exclude='./tests/*/build*' --exclude='*.o' --exclude='*.d' --exclude='*.so' \
-		--exclude='*.bc' -cf - . | tar -C "$WORKSPACE/tree" --no-same-owner -xf -
+	tar -C "$ROOT" --exclude=./.git --exclude=./demo-output --exclude='./tests/*/build*' --exclude='*.o' --exclude='*.d' \
+		--exclude='*.so' --exclude='*.bc' -cf - . | tar -C "$WORKSPACE/tree" --no-same-owner -xf -
 	chmod -R a+rX "$WORKSPACE/tree"
 	cd "$WORKSPACE/tree"
 }
