@@ -1,0 +1,74 @@
+#!/bin/bash
+# real_data.sh - the fear: what holds on made-up sets does not hold on real buildings. Uses the server of the PG*
+# variables and the data in TYPIFY_DATA, by default ../shared/data beside the project. Exit status 77: skipped.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+data=${TYPIFY_DATA:-../shared/data}
+file=$data/liechtenstein_2024/buildings.csv.gz
+[ -r "$file" ] || { echo "skipped: no $file (TYPIFY_DATA)"; exit 77; }
+database=typify_real_data
+trap 'dropdb --if-exists $database' EXIT
+
+createdb $database
+export PGDATABASE=$database PGOPTIONS='-c client_min_messages=warning'
+psql -qX -v ON_ERROR_STOP=1 -c 'CREATE EXTENSION typify CASCADE' \
+	-c 'CREATE TABLE buildings (id bigint PRIMARY KEY, class text, geom geometry NOT NULL)' \
+	-c '\copy buildings FROM PSTDIN WITH (FORMAT csv, HEADER true)' -c 'ANALYZE buildings' < <(gzip -dc "$file")
+
+# check WHAT QUERY: the query must return one row, t
+failed=0
+check() {
+	local answer
+	answer=$(psql -qXAt -v ON_ERROR_STOP=1 -c "$2" 2>&1) || true
+	if [ "$answer" = t ]; then echo "ok: $1"; else echo "failed: $1: $answer"; failed=1; fi
+}
+
+psql -qX -v ON_ERROR_STOP=1 <<'SQL'
+CREATE TABLE placeholders AS
+SELECT scale, s_u, ordinality - 1 AS number, p.*
+FROM (
+	SELECT scale, s_u, typify_placeholders(geom, id, scale, s_u) AS list
+	FROM buildings, unnest(ARRAY[25000, 50000, 75000, 100000, 200000, 500000]::float8[]) AS scale,
+		unnest(ARRAY[0, 0.5, 1]::float8[]) AS s_u
+	GROUP BY scale, s_u
+) t, unnest(list) WITH ORDINALITY AS p;
+CREATE TABLE members AS
+SELECT scale, s_u, number, unnest(members) AS id FROM placeholders;
+SQL
+check "as many as the law says" \
+	"SELECT bool_and(n = typify_count(17717, scale)) FROM
+		(SELECT scale, s_u, count(*) n FROM placeholders GROUP BY scale, s_u) t"
+check "75 000 leaves a third" "SELECT count(*) = floor(17717 / 3.0) FROM placeholders WHERE scale = 75000 AND s_u = 0.5"
+check "every building is a member of exactly one placeholder" \
+	"SELECT count(*) = 18 * 17717 AND count(DISTINCT (scale, s_u, id)) = count(*) FROM members"
+check "member counts add up" "SELECT sum(member_count) = 18 * 17717 AND
+	bool_and(member_count = cardinality(members)) FROM placeholders"
+check "the representative is the largest member" \
+	"SELECT bool_and(ST_Area(r.geom) >= largest * (1 - 1e-12)) FROM placeholders p JOIN buildings r USING (id) JOIN
+		(SELECT scale, s_u, number, max(ST_Area(geom)) largest FROM members JOIN buildings USING (id)
+		GROUP BY scale, s_u, number) m USING (scale, s_u, number)"
+check "areas are the mean of the members times the factor" \
+	"SELECT bool_and(abs(p.area / (m.mean * typify_area_factor(scale)) - 1) < 1e-9) FROM placeholders p JOIN
+		(SELECT scale, s_u, number, avg(ST_Area(geom)) mean FROM members JOIN buildings USING (id)
+		GROUP BY scale, s_u, number) m USING (scale, s_u, number)"
+check "each is drawn at the mean of its members' centroids" \
+	"SELECT bool_and(ST_Distance(ST_Centroid(p.geom), ST_MakePoint(x, y)) < 1e-3) FROM
+		(SELECT scale, s_u, number, avg(ST_X(ST_Centroid(geom))) x, avg(ST_Y(ST_Centroid(geom))) y
+		FROM members JOIN buildings USING (id) GROUP BY scale, s_u, number) m
+		JOIN (SELECT scale, s_u, number, ST_SetSRID(geom, 0) geom FROM placeholders) p USING (scale, s_u, number)"
+check "typify draws what typify_placeholders lists" \
+	"SELECT array_agg(ST_AsEWKB((d).geom) ORDER BY (d).path) =
+		(SELECT array_agg(ST_AsEWKB(geom) ORDER BY number) FROM placeholders WHERE scale = 75000 AND s_u = 0.5)
+	FROM (SELECT ST_Dump(typify(geom, 75000, 0.5)) AS d FROM buildings) t"
+check "typify_cluster numbers as typify_placeholders does" \
+	"SELECT bool_and(c.number = m.number) FROM
+		(SELECT id, typify_cluster(geom, 75000, 0.5) OVER () AS number FROM buildings) c
+		JOIN members m ON m.id = c.id AND m.scale = 75000 AND m.s_u = 0.5"
+serial=$(psql -qXAt -c 'SET max_parallel_workers_per_gather = 0' \
+	-c 'SELECT md5(ST_AsEWKB(typify(geom, 75000, 0.5))) FROM buildings')
+check "a parallel plan gives the same bytes" \
+	"SET parallel_setup_cost = 0; SET parallel_tuple_cost = 0; SET min_parallel_table_scan_size = 0;
+	SELECT md5(ST_AsEWKB(typify(geom, 75000, 0.5))) = '$serial' FROM buildings"
+check "another order of rows gives the same bytes" \
+	"SELECT md5(ST_AsEWKB(typify(geom, 75000, 0.5 ORDER BY id * 7919 % 17717))) = '$serial' FROM buildings"
+exit $failed
