@@ -248,11 +248,16 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 
 /* --- results --- */
 
+/* From this many buildings on, what their mesh took is given back before the result's value is made. */
+#define LARGE_GROUP 100000
+
 /* Typifies the group; the result is of the current context. The state stays as it is. */
 static void
 state_typify(const state *s, ty_result *result)
 {
 	ty_check_status(ty_typify(&ty_backend_environment, s->buildings, s->count, &s->parameters, result));
+	if (s->count >= LARGE_GROUP)
+		ty_trim_memory();
 	if (result->undrawn > 0)
 		ereport(
 			WARNING,
@@ -269,48 +274,32 @@ sortable_id(int64 id)
 	return (uint64) id ^ UINT64CONST(0x8000000000000000);
 }
 
-/* by_id receives the buildings' indices in ascending order of ids, which must differ. */
-static void
-sort_by_id(const state *s, uint32 *by_id)
+static int64
+id_of_sortable(uint64 number)
 {
-	uint64 *keys = ty_allocate_array(&ty_backend_environment, s->count, sizeof(uint64));
-
-	for (size_t i = 0; i < s->count; i++)
-	{
-		keys[i] = sortable_id(s->buildings[i].id);
-		by_id[i] = (uint32) i;
-	}
-	ty_check_status(ty_sort_keys(&ty_backend_environment, keys, by_id, s->count));
-	for (size_t i = 1; i < s->count; i++)
-		if (keys[i] == keys[i - 1])
-			ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-					errmsg("id %lld occurs more than once in a group", (long long) s->buildings[by_id[i]].id),
-					errhint("Pass a key of the buildings as id."));
-	pfree(keys);
+	return (int64) (number ^ UINT64CONST(0x8000000000000000));
 }
 
-/*
- * The ids of all members, placeholder by placeholder as in result->members, ascending in each: the buildings are
- * dealt out in the order of their ids.
- */
-static int64 *
-member_ids(const state *s, const ty_result *result, const uint32 *by_id)
+/* Ids must differ. What it takes to see that is given back before the group is typified. */
+static void
+check_ids(const state *s)
 {
-	uint32 *owner = ty_allocate_array(&ty_backend_environment, s->count, sizeof(uint32));
-	uint32 *dealt = ty_allocate_array(&ty_backend_environment, result->count, sizeof(uint32));
-	int64 *ids = ty_allocate_array(&ty_backend_environment, s->count, sizeof(int64));
+	uint64 *ids = ty_allocate_array(&ty_backend_environment, s->count, sizeof(uint64));
+	uint32 *unused = ty_allocate_array(&ty_backend_environment, s->count, sizeof(uint32));
 
-	for (size_t k = 0; k < result->count; k++)
-	{
-		dealt[k] = result->placeholders[k].first;
-		for (uint32 i = 0; i < result->placeholders[k].count; i++)
-			owner[result->members[result->placeholders[k].first + i]] = (uint32) k;
-	}
 	for (size_t i = 0; i < s->count; i++)
-		ids[dealt[owner[by_id[i]]]++] = s->buildings[by_id[i]].id;
-	pfree(owner);
-	pfree(dealt);
-	return ids;
+	{
+		ids[i] = sortable_id(s->buildings[i].id);
+		unused[i] = 0;
+	}
+	ty_check_status(ty_sort_keys(&ty_backend_environment, ids, unused, s->count));
+	for (size_t i = 1; i < s->count; i++)
+		if (ids[i] == ids[i - 1])
+			ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					errmsg("id %lld occurs more than once in a group", (long long) id_of_sortable(ids[i])),
+					errhint("Pass a key of the buildings as id."));
+	pfree(ids);
+	pfree(unused);
 }
 
 /* The fields of the composite typify_placeholder, in order. */
@@ -335,11 +324,15 @@ enum
 typedef struct row_writer
 {
 	TupleDesc shape;
-	int32 srid;
-	ArrayType *array;
+	Datum *values; /* of a row, with dropped attributes behind the fields */
+	bool *nulls;
+	const state *group;
+	const ty_result *result;
+	ArrayType *array; /* room for the most it can take; what is not written takes no memory */
 	size_t used;
 	void *polygon;		/* TY_POLYGON_DATUM_SIZE bytes, used for every row */
 	ArrayType *members; /* room for the largest placeholder's */
+	uint32 *unused;		/* as long, zero: what their sort moves along */
 } row_writer;
 
 static size_t
@@ -357,14 +350,14 @@ array_header(ArrayType *array, size_t size, Oid element, int count)
 {
 	SET_VARSIZE(array, size);
 	array->ndim = 1;
-	array->dataoffset = 0;
+	array->dataoffset = 0; /* no nulls */
 	array->elemtype = element;
 	ARR_DIMS(array)[0] = count;
 	ARR_LBOUND(array)[0] = 1;
 }
 
 static void
-writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_result *result, int32 srid)
+writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const state *s, const ty_result *result)
 {
 	Oid element = get_element_type(get_func_rettype(fcinfo->flinfo->fn_oid));
 	size_t size = array_size_bound(result);
@@ -375,37 +368,66 @@ writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_result *resul
 	for (size_t k = 0; k < result->count; k++)
 		most = Max(most, result->placeholders[k].count);
 	writer->shape = lookup_rowtype_tupdesc(element, -1);
-	if (writer->shape->natts != FIELDS)
-		elog(ERROR, "typify_placeholder is not declared as this library expects");
-	writer->srid = srid;
-	writer->array = palloc0(size);
+	ty_check_shape(writer->shape, FIELDS, "typify_placeholder");
+	writer->values = palloc0(writer->shape->natts * sizeof(Datum));
+	writer->nulls = palloc0(writer->shape->natts * sizeof(bool));
+	memset(writer->nulls + FIELDS, true, writer->shape->natts - FIELDS);
+	writer->group = s;
+	writer->result = result;
+	writer->array = palloc(size);
 	array_header(writer->array, size, element, (int) result->count);
 	writer->used = ARR_OVERHEAD_NONULLS(1);
 	writer->polygon = palloc(TY_POLYGON_DATUM_SIZE);
-	writer->members = palloc0(MEMBERS_SIZE(most));
+	writer->members = palloc(MEMBERS_SIZE(most));
+	writer->unused = palloc0(most * sizeof(uint32));
+}
+
+/* The ids of the placeholder's members, ascending, as an array that the next call overwrites. */
+static Datum
+writer_members(row_writer *writer, const ty_placeholder *placeholder)
+{
+	const uint32 *members = writer->result->members + placeholder->first;
+	uint64 *ids;
+
+	array_header(writer->members, MEMBERS_SIZE(placeholder->count), INT8OID, (int) placeholder->count);
+	ids = (uint64 *) ARR_DATA_PTR(writer->members);
+	for (uint32 i = 0; i < placeholder->count; i++)
+		ids[i] = sortable_id(writer->group->buildings[members[i]].id);
+	ty_check_status(ty_sort_keys(&ty_backend_environment, ids, writer->unused, placeholder->count));
+	for (uint32 i = 0; i < placeholder->count; i++)
+		ids[i] = (uint64) id_of_sortable(ids[i]);
+	return PointerGetDatum(writer->members);
+}
+
+/* Rows start aligned; the bytes between them are zero, so that equal arrays are the same bytes. */
+static void
+writer_append(row_writer *writer, HeapTuple row)
+{
+	char *at = (char *) writer->array + writer->used;
+
+	memcpy(at, row->t_data, row->t_len);
+	memset(at + row->t_len, 0, MAXALIGN(row->t_len) - row->t_len);
+	writer->used += MAXALIGN(row->t_len);
 }
 
 static void
-writer_add(row_writer *writer, const ty_placeholder *placeholder, int64 id, const int64 *members)
+writer_add(row_writer *writer, const ty_placeholder *placeholder)
 {
-	Datum values[FIELDS];
-	bool nulls[FIELDS] = {false};
+	const state *s = writer->group;
+	bool drawn = placeholder->area > 0;
 	HeapTuple row;
 
-	nulls[FIELD_GEOM] = !(placeholder->area > 0);
-	array_header(writer->members, MEMBERS_SIZE(placeholder->count), INT8OID, (int) placeholder->count);
-	memcpy(ARR_DATA_PTR(writer->members), members, placeholder->count * sizeof(int64));
-	values[FIELD_ID] = Int64GetDatum(id);
-	values[FIELD_GEOM] = nulls[FIELD_GEOM] ? (Datum) 0 : ty_write_rectangle(writer->polygon, placeholder, writer->srid);
-	values[FIELD_MEMBER_COUNT] = Int32GetDatum((int32) placeholder->count);
-	values[FIELD_MEMBERS] = PointerGetDatum(writer->members);
-	values[FIELD_AREA] = Float8GetDatum(placeholder->area);
-	values[FIELD_WIDTH] = Float8GetDatum(placeholder->width);
-	values[FIELD_LENGTH] = Float8GetDatum(placeholder->length);
-	values[FIELD_ORIENTATION] = Float8GetDatum(ty_orientation_degrees(placeholder->ux, placeholder->uy));
-	row = heap_form_tuple(writer->shape, values, nulls);
-	memcpy((char *) writer->array + writer->used, row->t_data, row->t_len);
-	writer->used += MAXALIGN(row->t_len);
+	writer->values[FIELD_ID] = Int64GetDatum(s->buildings[placeholder->representative].id);
+	writer->nulls[FIELD_GEOM] = !drawn;
+	writer->values[FIELD_GEOM] = drawn ? ty_write_rectangle(writer->polygon, placeholder, s->srid) : (Datum) 0;
+	writer->values[FIELD_MEMBER_COUNT] = Int32GetDatum((int32) placeholder->count);
+	writer->values[FIELD_MEMBERS] = writer_members(writer, placeholder);
+	writer->values[FIELD_AREA] = Float8GetDatum(placeholder->area);
+	writer->values[FIELD_WIDTH] = Float8GetDatum(placeholder->width);
+	writer->values[FIELD_LENGTH] = Float8GetDatum(placeholder->length);
+	writer->values[FIELD_ORIENTATION] = Float8GetDatum(ty_orientation_degrees(placeholder->ux, placeholder->uy));
+	row = heap_form_tuple(writer->shape, writer->values, writer->nulls);
+	writer_append(writer, row);
 	heap_freetuple(row);
 }
 
@@ -415,22 +437,23 @@ writer_end(row_writer *writer)
 	ReleaseTupleDesc(writer->shape);
 	pfree(writer->polygon);
 	pfree(writer->members);
+	pfree(writer->unused);
+	pfree(writer->values);
+	pfree(writer->nulls);
 	SET_VARSIZE(writer->array, writer->used);
 	return PointerGetDatum(writer->array);
 }
 
 static Datum
-placeholder_array(FunctionCallInfo fcinfo, const state *s, const ty_result *result, const int64 *ids)
+placeholder_array(FunctionCallInfo fcinfo, const state *s, const ty_result *result)
 {
 	row_writer writer;
 
-	writer_begin(&writer, fcinfo, result, s->srid);
+	writer_begin(&writer, fcinfo, s, result);
 	for (size_t k = 0; k < result->count; k++)
 	{
-		const ty_placeholder *placeholder = &result->placeholders[k];
-
 		CHECK_FOR_INTERRUPTS();
-		writer_add(&writer, placeholder, s->buildings[placeholder->representative].id, ids + placeholder->first);
+		writer_add(&writer, &result->placeholders[k]);
 	}
 	return writer_end(&writer);
 }
@@ -507,20 +530,14 @@ typify_placeholders_final(PG_FUNCTION_ARGS)
 {
 	const state *s = PG_ARGISNULL(0) ? NULL : (const state *) PG_GETARG_POINTER(0);
 	ty_result result;
-	uint32 *by_id;
-	int64 *ids;
 	Datum array;
 
 	aggregate_context(fcinfo);
 	if (s == NULL)
 		PG_RETURN_NULL();
-	by_id = ty_allocate_array(&ty_backend_environment, s->count, sizeof(uint32));
-	sort_by_id(s, by_id);
+	check_ids(s);
 	state_typify(s, &result);
-	ids = member_ids(s, &result, by_id);
-	pfree(by_id);
-	array = placeholder_array(fcinfo, s, &result, ids);
-	pfree(ids);
+	array = placeholder_array(fcinfo, s, &result);
 	ty_result_free(&ty_backend_environment, &result);
 	PG_RETURN_DATUM(array);
 }

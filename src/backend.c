@@ -1,6 +1,10 @@
 /* backend.c - see backend.h */
 #include "compat.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "miscadmin.h"
 #include "utils/float.h"
 #include "utils/memutils.h"
@@ -40,6 +44,15 @@ backend_interrupted(void *context)
 
 const ty_environment ty_backend_environment = {backend_allocate, backend_reallocate, backend_release,
 											   backend_interrupted, NULL};
+
+/* glibc keeps tens of megabytes of freed arrays below any that is still in use. */
+void
+ty_trim_memory(void)
+{
+#ifdef __GLIBC__
+	malloc_trim(0);
+#endif
+}
 
 void
 ty_check_status(ty_status status)

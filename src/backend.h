@@ -15,6 +15,9 @@ extern const ty_environment ty_backend_environment;
 /* Raises the error that a status of the core stands for; returns for TY_OK. */
 extern void ty_check_status(ty_status status);
 
+/* Gives memory that was freed back to the system; takes milliseconds, so only after a large group. */
+extern void ty_trim_memory(void);
+
 /* A number as PostgreSQL prints it: the shortest that reads back the same. */
 extern char *ty_number_text(double number);
 

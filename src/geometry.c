@@ -47,8 +47,9 @@ refuse_type(uint32_t type)
 			errmsg("geometry type %s is not supported", ty_geometry_type_name(type)), errhint("%s", hint));
 }
 
+/* area: what the coordinates gave, unless one of them is at fault */
 static void
-refuse_not_finite(const detoasted *d)
+refuse_not_finite(const detoasted *d, double area)
 {
 	double value;
 
@@ -56,12 +57,12 @@ refuse_not_finite(const detoasted *d)
 		ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				errmsg("a coordinate of the geometry is %s, it must be a finite number", ty_number_text(value)));
 	ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-			errmsg("the area of the geometry is Infinity, it must be a finite number"));
+			errmsg("the area of the geometry is %s, it must be a finite number", ty_number_text(area)));
 }
 
 /* Returns for TY_GEOMETRY_OK and TY_GEOMETRY_EMPTY. */
 static void
-check_geometry(ty_geometry_status status, const detoasted *d, uint32_t type)
+check_geometry(ty_geometry_status status, const detoasted *d, uint32_t type, const ty_building *building)
 {
 	switch (status)
 	{
@@ -72,7 +73,7 @@ check_geometry(ty_geometry_status status, const detoasted *d, uint32_t type)
 			refuse_type(type);
 			return;
 		case TY_GEOMETRY_NOT_FINITE:
-			refuse_not_finite(d);
+			refuse_not_finite(d, building->area);
 			return;
 		case TY_GEOMETRY_CORRUPT:
 			ereport(ERROR, errcode(ERRCODE_DATA_CORRUPTED), errmsg("the geometry is truncated or corrupt"));
@@ -92,7 +93,7 @@ ty_measure_datum(Datum geometry, ty_building *building, int32 *srid, uint64 *has
 	uint32_t type = 0;
 	ty_geometry_status status = ty_geometry_read(&ty_backend_environment, d.payload, d.size, building, srid, &type);
 
-	check_geometry(status, &d, type);
+	check_geometry(status, &d, type, building);
 	if (hash != NULL)
 		*hash = hash_bytes_extended(d.payload, (int) d.size, 0);
 	release(&d);
@@ -111,7 +112,7 @@ ty_point_datum(Datum geometry, const char *argument, ty_point *point, int32 *sri
 		ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				errmsg("%s is a %s, it must be a Point", argument, ty_geometry_type_name(type)),
 				errhint("Use ST_Centroid to get a point."));
-	check_geometry(status, &d, type);
+	check_geometry(status, &d, type, &building);
 	release(&d);
 	if (status == TY_GEOMETRY_EMPTY)
 		return false;
@@ -125,7 +126,7 @@ ty_geometry_datum_has_points(Datum geometry)
 	detoasted d = detoast(geometry);
 	ty_geometry_status status = ty_geometry_has_points(d.payload, d.size);
 
-	check_geometry(status, &d, 0);
+	check_geometry(status, &d, 0, NULL);
 	release(&d);
 	return status == TY_GEOMETRY_OK;
 }
@@ -137,10 +138,10 @@ rectangle_ring(const ty_placeholder *placeholder, ty_point ring[5])
 				 placeholder->uy, ring);
 	for (int i = 0; i < 5; i++)
 		if (!isfinite(ring[i].x) || !isfinite(ring[i].y))
-			ereport(
-				ERROR, errcode(ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE),
-				errmsg("a placeholder of area %s is too large for double precision", ty_number_text(placeholder->area)),
-				errhint("Use a smaller scale denominator."));
+			ereport(ERROR, errcode(ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE),
+					errmsg("a placeholder of area %s and ratio %s is too large for double precision",
+						   ty_number_text(placeholder->area), ty_number_text(placeholder->ratio)),
+					errhint("Use a smaller area, that is a smaller scale denominator, or a ratio nearer to 1."));
 }
 
 Datum

@@ -36,7 +36,8 @@ typedef enum ty_geometry_status
 
 /*
  * Measures the geometry; building->id is set to 0. *srid (0: unknown) and *type are set whenever the status is
- * not TY_GEOMETRY_CORRUPT; *building only with TY_GEOMETRY_OK.
+ * not TY_GEOMETRY_CORRUPT; *building only with TY_GEOMETRY_OK. With TY_GEOMETRY_NOT_FINITE building->area is what
+ * overflowed, unless a coordinate is at fault.
  */
 ty_geometry_status ty_geometry_read(const ty_environment *env, const unsigned char *payload, size_t size,
 									ty_building *building, int32_t *srid, uint32_t *type);

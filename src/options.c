@@ -118,6 +118,21 @@ ty_refuse_null(const char *name)
 	ereport(ERROR, errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED), errmsg("%s must not be null", name));
 }
 
+/* An attribute that was added and dropped again stays in the shape, as dropped. */
+void
+ty_check_shape(TupleDesc shape, int fields, const char *type)
+{
+	bool fits = shape->natts >= fields;
+
+	for (int i = 0; fits && i < shape->natts; i++)
+		fits = TupleDescAttr(shape, i)->attisdropped == (i >= fields);
+	if (!fits)
+		ereport(ERROR, errcode(ERRCODE_DATATYPE_MISMATCH),
+				errmsg("type %s does not have the %d attributes that the extension gave it", type, fields),
+				errhint("Use ALTER TYPE %s DROP ATTRIBUTE on what was added, or drop and create the extension again.",
+						type));
+}
+
 static void
 check_number(const option_entry *entry, double value)
 {
@@ -302,6 +317,19 @@ ty_same_parameters(const ty_parameters *a, const ty_parameters *b)
 		   a->count_rule == b->count_rule && a->area_statistic == b->area_statistic && a->shape == b->shape;
 }
 
+/* Dropped attributes, which the shape may have behind the fields, are null. */
+static Datum
+compose(TupleDesc shape, const option_values *options)
+{
+	Datum *values = palloc0(shape->natts * sizeof(Datum));
+	bool *nulls = palloc(shape->natts * sizeof(bool));
+
+	memset(nulls, true, shape->natts * sizeof(bool));
+	memcpy(values, options->value, sizeof(options->value));
+	memcpy(nulls, options->null, sizeof(options->null));
+	return HeapTupleGetDatum(heap_form_tuple(BlessTupleDesc(shape), values, nulls));
+}
+
 PG_FUNCTION_INFO_V1(typify_options);
 Datum
 typify_options(PG_FUNCTION_ARGS)
@@ -309,14 +337,14 @@ typify_options(PG_FUNCTION_ARGS)
 	option_values options;
 	TupleDesc shape;
 
-	if (PG_NARGS() != OPTIONS || get_call_result_type(fcinfo, NULL, &shape) != TYPEFUNC_COMPOSITE ||
-		shape->natts != OPTIONS)
+	if (PG_NARGS() != OPTIONS || get_call_result_type(fcinfo, NULL, &shape) != TYPEFUNC_COMPOSITE)
 		elog(ERROR, "typify_options is not declared as this library expects");
+	ty_check_shape(shape, OPTIONS, "typify_options");
 	for (int field = 0; field < OPTIONS; field++)
 	{
 		options.null[field] = PG_ARGISNULL(field);
 		options.value[field] = options.null[field] ? (Datum) 0 : PG_GETARG_DATUM(field);
 	}
 	check_options(&options);
-	PG_RETURN_DATUM(HeapTupleGetDatum(heap_form_tuple(BlessTupleDesc(shape), options.value, options.null)));
+	PG_RETURN_DATUM(compose(shape, &options));
 }

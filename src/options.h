@@ -5,6 +5,7 @@
 #define TY_OPTIONS_H
 
 #include "compat.h"
+#include "access/tupdesc.h"
 #include "core/placeholder.h"
 
 /*
@@ -16,6 +17,12 @@ extern void ty_resolve_parameters(double scale, double s_u, Datum options, bool 
 								  ty_parameters *parameters);
 
 extern bool ty_same_parameters(const ty_parameters *a, const ty_parameters *b);
+
+/*
+ * Raises an error unless the composite has the given fields, whose number this library was built for, and after them
+ * none but dropped ones.
+ */
+extern void ty_check_shape(TupleDesc shape, int fields, const char *type);
 
 /* The errors that all arguments share: "NAME is VALUE, it must be ALLOWED" and "NAME must not be null". */
 extern _Noreturn void ty_refuse_value(const char *name, double value, const char *allowed);

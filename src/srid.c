@@ -6,9 +6,12 @@
  */
 #include "srid.h"
 
+#include <ctype.h>
+
 #include "access/genam.h"
 #include "access/htup_details.h"
 #include "access/table.h"
+#include "catalog/pg_index.h"
 #include "catalog/pg_type.h"
 #include "utils/builtins.h"
 #include "utils/fmgroids.h"
@@ -44,23 +47,86 @@ schema_of_type(Oid type)
 	return schema;
 }
 
+typedef enum crs_kind
+{
+	CRS_UNKNOWN = 0,
+	CRS_PLANAR,
+	CRS_GEOGRAPHIC,
+	CRS_GEOCENTRIC
+} crs_kind;
+
 /* Any form that PROJ knows for degrees; rotated poles ("+o_proj=longlat") among them. */
-static bool
-proj4_is_geographic(const char *text)
+static crs_kind
+proj4_kind(const char *text)
 {
-	return strstr(text, "proj=longlat") || strstr(text, "proj=latlon") || strstr(text, "proj=lonlat");
+	if (strstr(text, "proj=longlat") || strstr(text, "proj=latlon") || strstr(text, "proj=lonlat"))
+		return CRS_GEOGRAPHIC;
+	if (strstr(text, "proj=geocent"))
+		return CRS_GEOCENTRIC;
+	return strstr(text, "proj=") ? CRS_PLANAR : CRS_UNKNOWN;
 }
 
-/* WKT 1 and 2; a projected system names its geographic base inside */
-static bool
-wkt_is_geographic(const char *text)
+/* The keyword at or after *text, which comes to stand behind it; what is in quotes is passed over. 0: no more. */
+static size_t
+next_keyword(const char **text)
 {
-	return (strstr(text, "GEOGCS") || strstr(text, "GEOGCRS") || strstr(text, "GEOGRAPHICCRS")) &&
-		   !strstr(text, "PROJCS") && !strstr(text, "PROJCRS") && !strstr(text, "PROJECTEDCRS");
+	const char *c = *text;
+	size_t length = 0;
+	bool quoted = false;
+
+	for (; *c != '\0' && (quoted || !(isalpha((unsigned char) *c) || *c == '_')); c++)
+		quoted ^= *c == '"';
+	while (isalnum((unsigned char) c[length]) || c[length] == '_')
+		length++;
+	*text = c + length;
+	return length;
 }
 
-static bool
-column_matches(Relation relation, HeapTuple tuple, const char *column, bool (*is_geographic)(const char *))
+/*
+ * Keywords of WKT 1 and 2 that decide. A projected system comes before the geographic one it is based on, as does
+ * the horizontal part of a compound one, so the first decides.
+ */
+static const struct
+{
+	const char *keyword;
+	crs_kind kind;
+} keywords[] = {
+	{"PROJCS", CRS_PLANAR},			{"PROJCRS", CRS_PLANAR},
+	{"PROJECTEDCRS", CRS_PLANAR},	{"DERIVEDPROJCRS", CRS_PLANAR},
+	{"LOCAL_CS", CRS_PLANAR},		{"ENGCRS", CRS_PLANAR},
+	{"ENGINEERINGCRS", CRS_PLANAR}, {"GEOGCS", CRS_GEOGRAPHIC},
+	{"GEOGCRS", CRS_GEOGRAPHIC},	{"GEOGRAPHICCRS", CRS_GEOGRAPHIC},
+	{"GEODCRS", CRS_GEOGRAPHIC},	{"GEODETICCRS", CRS_GEOGRAPHIC},
+	{"GEOCCS", CRS_GEOCENTRIC},
+};
+
+static crs_kind
+keyword_kind(const char *keyword, size_t length)
+{
+	for (size_t i = 0; i < lengthof(keywords); i++)
+		if (strlen(keywords[i].keyword) == length && pg_strncasecmp(keyword, keywords[i].keyword, length) == 0)
+			return keywords[i].kind;
+	return CRS_UNKNOWN;
+}
+
+/* GEODCRS stands for both kinds; its axes tell. */
+static crs_kind
+wkt_kind(const char *text)
+{
+	crs_kind kind = CRS_UNKNOWN;
+	size_t length;
+
+	while ((length = next_keyword(&text)) > 0 && (kind == CRS_UNKNOWN || kind == CRS_GEOGRAPHIC))
+		if (kind == CRS_UNKNOWN)
+			kind = keyword_kind(text - length, length);
+		else if (length == strlen("Cartesian") && pg_strncasecmp(text - length, "Cartesian", length) == 0)
+			kind = CRS_GEOCENTRIC;
+	return kind;
+}
+
+/* The column's text, or an empty one where there is none. */
+static const char *
+text_of_column(Relation relation, HeapTuple tuple, const char *column)
 {
 	AttrNumber number = get_attnum(RelationGetRelid(relation), column);
 	bool null = true;
@@ -68,42 +134,85 @@ column_matches(Relation relation, HeapTuple tuple, const char *column, bool (*is
 
 	if (number != InvalidAttrNumber)
 		value = heap_getattr(tuple, number, RelationGetDescr(relation), &null);
-	return !null && is_geographic(TextDatumGetCString(value));
+	return null ? "" : TextDatumGetCString(value);
 }
 
-static bool
-row_is_geographic(Relation relation, int32 srid)
+/* The code that "+init=epsg:4326" names, else 0. */
+static int32
+named_code(const char *proj4)
 {
+	const char *name = strstr(proj4, "init=");
+
+	if (name == NULL || pg_strncasecmp(name, "init=epsg:", strlen("init=epsg:")) != 0)
+		return 0;
+	return (int32) strtol(name + strlen("init=epsg:"), NULL, 10);
+}
+
+/* Whichever of the two texts refuses; *named receives a code that stands in for both, else 0. */
+static crs_kind
+row_kind(Relation relation, HeapTuple tuple, int32 *named)
+{
+	const char *proj4 = text_of_column(relation, tuple, "proj4text");
+	crs_kind kind = wkt_kind(text_of_column(relation, tuple, "srtext"));
+
+	if (kind <= CRS_PLANAR)
+		kind = Max(kind, proj4_kind(proj4));
+	*named = kind == CRS_UNKNOWN ? named_code(proj4) : 0;
+	return kind;
+}
+
+/* The primary key's index where its first column is this one: others cannot be searched by it. */
+static Oid
+index_on(Relation relation, AttrNumber column)
+{
+	Oid index = ty_primary_key_of(relation);
+	HeapTuple tuple = OidIsValid(index) ? SearchSysCache1(INDEXRELID, ObjectIdGetDatum(index)) : NULL;
+
+	if (!HeapTupleIsValid(tuple))
+		return InvalidOid;
+	if (((Form_pg_index) GETSTRUCT(tuple))->indkey.values[0] != column)
+		index = InvalidOid;
+	ReleaseSysCache(tuple);
+	return index;
+}
+
+static crs_kind
+kind_of_srid(Relation relation, AttrNumber column, int32 srid, int32 *named)
+{
+	Oid index = index_on(relation, column);
 	SysScanDesc scan;
 	ScanKeyData key;
 	HeapTuple tuple;
-	bool geographic = false;
-	Oid index = ty_primary_key_of(relation);
+	crs_kind kind = CRS_UNKNOWN;
 
-	ScanKeyInit(&key, get_attnum(RelationGetRelid(relation), "srid"), BTEqualStrategyNumber, F_INT4EQ,
-				Int32GetDatum(srid));
+	*named = 0;
+	ScanKeyInit(&key, column, BTEqualStrategyNumber, F_INT4EQ, Int32GetDatum(srid));
 	scan = systable_beginscan(relation, index, OidIsValid(index), GetActiveSnapshot(), 1, &key);
-	while ((tuple = systable_getnext(scan)) != NULL && !geographic)
-		geographic = column_matches(relation, tuple, "srtext", wkt_is_geographic) ||
-					 column_matches(relation, tuple, "proj4text", proj4_is_geographic);
+	while ((tuple = systable_getnext(scan)) != NULL && kind <= CRS_PLANAR)
+		kind = Max(kind, row_kind(relation, tuple, named));
 	systable_endscan(scan);
-	return geographic;
+	return kind;
 }
 
-static bool
-srid_is_geographic(Oid geometry_type, int32 srid)
+/* A row that only names another code (PostGIS numbers rows as EPSG does) is what that one is. */
+static crs_kind
+look_up_kind(Oid geometry_type, int32 srid)
 {
 	Oid table = get_relname_relid("spatial_ref_sys", schema_of_type(geometry_type));
+	AttrNumber column = OidIsValid(table) ? get_attnum(table, "srid") : InvalidAttrNumber;
 	Relation relation;
-	bool geographic;
+	crs_kind kind;
+	int32 named;
 
-	if (!OidIsValid(table) || get_rel_relkind(table) != RELKIND_RELATION ||
-		get_atttype(table, get_attnum(table, "srid")) != INT4OID)
-		return false;
+	if (column == InvalidAttrNumber || get_rel_relkind(table) != RELKIND_RELATION ||
+		get_atttype(table, column) != INT4OID)
+		return CRS_UNKNOWN;
 	relation = table_open(table, AccessShareLock);
-	geographic = row_is_geographic(relation, srid);
+	kind = kind_of_srid(relation, column, srid, &named);
+	if (kind == CRS_UNKNOWN && named > 0)
+		kind = kind_of_srid(relation, column, named, &named);
 	table_close(relation, AccessShareLock);
-	return geographic;
+	return kind;
 }
 
 static void
@@ -118,6 +227,17 @@ remember(ty_srid_cache *cache, int32 srid)
 	cache->passed[cache->count++] = srid;
 }
 
+static void
+refuse_kind(crs_kind kind, int32 srid)
+{
+	if (kind <= CRS_PLANAR)
+		return;
+	ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			kind == CRS_GEOGRAPHIC ? errmsg("SRID %d is geographic, its coordinates are degrees", srid)
+								   : errmsg("SRID %d is geocentric, its coordinates are places in space", srid),
+			errhint("Use ST_Transform to bring the geometries into a projected coordinate system in metres."));
+}
+
 void
 ty_check_srid(ty_srid_cache *cache, int32 srid)
 {
@@ -126,10 +246,7 @@ ty_check_srid(ty_srid_cache *cache, int32 srid)
 	for (int i = 0; i < cache->count; i++)
 		if (cache->passed[i] == srid)
 			return;
-	if (srid_is_geographic(cache->geometry_type, srid))
-		ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				errmsg("SRID %d is geographic, its coordinates are degrees", srid),
-				errhint("Use ST_Transform to bring the geometries into a projected coordinate system in metres."));
+	refuse_kind(look_up_kind(cache->geometry_type, srid), srid);
 	remember(cache, srid);
 }
 

@@ -1,5 +1,5 @@
 /*
- * srid.h - which coordinate systems are geographic: degrees are no ground units.
+ * srid.h - which coordinate systems are not planar: neither degrees nor places in space are ground units.
  */
 #ifndef TY_SRID_H
 #define TY_SRID_H
@@ -19,8 +19,8 @@ typedef struct ty_srid_cache
 extern void ty_srid_cache_begin(ty_srid_cache *cache, Oid function, int argument, MemoryContext context);
 
 /*
- * Raises an error when the SRID is known as geographic (spatial_ref_sys of the schema that PostGIS lives in). An
- * unknown SRID is taken as metres.
+ * Raises an error when the SRID is known as geographic or geocentric (spatial_ref_sys of the schema that PostGIS
+ * lives in). An unknown SRID is taken as metres.
  */
 extern void ty_check_srid(ty_srid_cache *cache, int32 srid);
 

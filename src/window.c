@@ -3,7 +3,8 @@
  *
  * All numbers of a partition are computed when its first row asks, and kept with the partition. A building's id is a
  * hash of its geometry's bytes, so that rows whose measures are equal but whose bytes are not are told apart
- * whatever order they come in.
+ * whatever order they come in. Copies of the same bytes are interchangeable: which of them gets which number, where
+ * they are not all merged into one placeholder, depends on the order of the rows.
  */
 #include "compat.h"
 
@@ -37,7 +38,8 @@ typedef struct gathering
 	uint64 generation; /* of the call's parameters at the first building; 0: there is none yet */
 	int32 srid;
 	size_t count;
-	ty_building *buildings; /* [rows] */
+	ty_building *buildings; /* [rows], of which count are taken */
+	bool *usable;			/* [rows] whether the row has a building */
 } gathering;
 
 static NullableDatum
@@ -95,9 +97,9 @@ gather_row(gathering *g, WindowObject window, int64 row)
 	return true;
 }
 
-/* Marks the rows without building, gathers the others. What a row leaves behind goes with the row. */
+/* Gathers the buildings of all rows that have one. What a row leaves behind goes with the row. */
 static void
-gather(gathering *g, WindowObject window, int64 rows, int32 *cluster)
+gather(gathering *g, WindowObject window, int64 rows)
 {
 	MemoryContext scratch = AllocSetContextCreate(CurrentMemoryContext, "typify_cluster row", ALLOCSET_SMALL_SIZES);
 
@@ -106,30 +108,37 @@ gather(gathering *g, WindowObject window, int64 rows, int32 *cluster)
 		MemoryContext old = MemoryContextSwitchTo(scratch);
 
 		CHECK_FOR_INTERRUPTS();
-		cluster[row] = gather_row(g, window, row) ? 0 : NO_CLUSTER;
+		g->usable[row] = gather_row(g, window, row);
 		MemoryContextSwitchTo(old);
 		MemoryContextReset(scratch);
 	}
 	MemoryContextDelete(scratch);
 }
 
-/* Buildings were gathered in the order of the rows that are not marked. */
+/* Typifies what was gathered, and frees it, for there may be much of it. */
 static void
-number_rows(const gathering *g, int64 rows, int32 *cluster)
+typify_gathered(gathering *g, ty_result *result)
 {
-	int32 *of_building = ty_allocate_array(&ty_backend_environment, g->count, sizeof(int32));
-	size_t building = 0;
-	ty_result result;
+	*result = (ty_result){0};
+	if (g->count > 0)
+		ty_check_status(ty_typify(&ty_backend_environment, g->buildings, g->count, &g->parameters, result));
+	pfree(g->buildings);
+}
 
-	ty_check_status(ty_typify(&ty_backend_environment, g->buildings, g->count, &g->parameters, &result));
-	for (size_t k = 0; k < result.count; k++)
-		for (uint32 i = 0; i < result.placeholders[k].count; i++)
-			of_building[result.members[result.placeholders[k].first + i]] = (int32) k;
-	ty_result_free(&ty_backend_environment, &result);
-	for (int64 row = 0; row < rows; row++)
-		if (cluster[row] != NO_CLUSTER)
-			cluster[row] = of_building[building++];
-	pfree(of_building);
+/*
+ * The numbers of the buildings, in the order of their rows, come first; then they move up to their rows, the last
+ * one first.
+ */
+static void
+number_rows(const gathering *g, const ty_result *result, int64 rows, int32 *cluster)
+{
+	size_t building = g->count;
+
+	for (size_t k = 0; k < result->count; k++)
+		for (uint32 i = 0; i < result->placeholders[k].count; i++)
+			cluster[result->members[result->placeholders[k].first + i]] = (int32) k;
+	for (int64 row = rows; row-- > 0;)
+		cluster[row] = g->usable[row] ? cluster[--building] : NO_CLUSTER;
 }
 
 /* The cluster number of every row, in the given context. */
@@ -138,16 +147,19 @@ cluster_partition(ty_call *call, WindowObject window, MemoryContext context)
 {
 	int64 rows = WinGetPartitionRowCount(window);
 	gathering g = {.call = call};
+	ty_result result;
 	int32 *cluster;
 
 	if (rows > (int64) TY_MAX_VERTICES)
 		ty_check_status(TY_TOO_MANY);
-	cluster = MemoryContextAllocHuge(context, rows * sizeof(int32));
 	g.buildings = ty_allocate_array(&ty_backend_environment, rows, sizeof(ty_building));
-	gather(&g, window, rows, cluster);
-	if (g.count > 0)
-		number_rows(&g, rows, cluster);
-	pfree(g.buildings);
+	g.usable = ty_allocate_array(&ty_backend_environment, rows, sizeof(bool));
+	gather(&g, window, rows);
+	typify_gathered(&g, &result);
+	cluster = MemoryContextAllocHuge(context, rows * sizeof(int32));
+	number_rows(&g, &result, rows, cluster);
+	ty_result_free(&ty_backend_environment, &result);
+	pfree(g.usable);
 	return cluster;
 }
 

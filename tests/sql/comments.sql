@@ -1,6 +1,7 @@
 -- comments.sql: every object says what it does, and its declaration what it costs
 SELECT pg_describe_object(classid, objid, 0) AS without_comment FROM pg_depend
 WHERE refclassid = 'pg_extension'::regclass AND refobjid = (SELECT oid FROM pg_extension WHERE extname = 'typify') AND deptype = 'e'
+	AND NOT (classid = 'pg_type'::regclass AND EXISTS (SELECT FROM pg_type AS element WHERE element.typarray = objid)) -- members from 17 on
 	AND obj_description(objid, classid::regclass::name) IS NULL ORDER BY 1;
 SELECT attname AS field_without_comment FROM pg_attribute WHERE attrelid = 'typify_options'::regclass AND col_description(attrelid, attnum) IS NULL ORDER BY attnum;
 -- parallel safe and immutable, all but what says otherwise

@@ -16,12 +16,12 @@ $$;
 
 SELECT srid, ST_SRID(typify(geom, 25000)) AS typified, ST_SRID((typify_placeholders(geom, 1, 25000))[1].geom) AS in_rows,
 	   ST_SRID(typify_rectangle(ST_Centroid(geom), 4, 1, 0)) AS rectangle
-FROM unnest(ARRAY[0, 2056, 3857, 4978, 999001]) AS srid, LATERAL (SELECT ST_MakeEnvelope(0, 0, 2, 2, srid) AS geom) AS b
+FROM unnest(ARRAY[0, 2056, 3857, 999001]) AS srid, LATERAL (SELECT ST_MakeEnvelope(0, 0, 2, 2, srid) AS geom) AS b
 GROUP BY srid, geom ORDER BY srid;
 
--- geographic systems, two-dimensional, three-dimensional and compound
+-- geographic systems, two- and three-dimensional, and a geocentric one
 SELECT srid, pg_temp.error_of(format('SELECT typify(ST_SetSRID(ST_MakePoint(0, 0), %s), 25000)', srid))
-FROM unnest(ARRAY[4326, 4258, 4979, 4150]) AS srid ORDER BY srid;
+FROM unnest(ARRAY[4326, 4258, 4979, 4150, 4978]) AS srid ORDER BY srid;
 SELECT pg_temp.error_of('SELECT typify_placeholders(ST_SetSRID(ST_MakePoint(0, 0), 4326), 1, 25000)');
 SELECT pg_temp.error_of('SELECT typify_cluster(ST_SetSRID(ST_MakePoint(0, 0), 4326), 25000) OVER ()');
 SELECT pg_temp.error_of('SELECT typify_rectangle(ST_SetSRID(ST_MakePoint(0, 0), 4326), 1, 1, 0)');
@@ -34,9 +34,25 @@ INSERT INTO spatial_ref_sys (srid, srtext, proj4text) VALUES
 	(990003, NULL, '+proj=longlat +datum=WGS84'),
 	(990004, NULL, NULL),
 	(990005, NULL, '+proj=ob_tran +o_proj=longlat +o_lat_p=39 +to_meter=0.0174532925199433'),
-	(990006, 'COMPD_CS["both",GEOGCS["WGS 84"],VERT_CS["height"]]', NULL);
-SELECT srid, pg_temp.error_of(format('SELECT typify(ST_SetSRID(ST_MakePoint(0, 0), %s), 25000)', srid))
-FROM generate_series(990001, 990006) AS srid ORDER BY srid;
+	(990006, 'COMPD_CS["both",GEOGCS["WGS 84"],VERT_CS["height"]]', NULL),
+	(990007, 'GEODCRS["mine",DATUM["d",ELLIPSOID["e",6378137,298.25]],CS[ellipsoidal,2]]', ''),
+	(990008, 'GeodeticCRS ( "Cartesian?", DATUM["d"], CS[ellipsoidal,3] )', ''),
+	(990009, 'GEODCRS["mine",DATUM["d",ELLIPSOID["e",6378137,298.25]],CS[Cartesian,3],AXIS["(X)",geocentricX]]', ''),
+	(990010, 'GEOCCS["mine",DATUM["d"],PRIMEM["Greenwich",0]]', NULL),
+	(990011, NULL, '+proj=geocent +datum=WGS84'),
+	(990012, '', '+init=epsg:4326'),
+	(990013, '', '+init=EPSG:2056'),
+	(990014, '', '+init=epsg:990014'),
+	(990015, 'LOCAL_CS["a ""GEOGCS"" of our own"]', NULL),
+	(990016, 'COMPOUNDCRS["both",PROJCRS["plan",BASEGEOGCRS["base"],CS[Cartesian,2]],VERTCRS["height"]]', NULL);
+SELECT srid, pg_temp.error_of(format('SELECT typify(ST_MakeEnvelope(0, 0, 2, 2, %s), 25000)', srid))
+FROM generate_series(990001, 990016) AS srid ORDER BY srid;
+-- with another primary key, and with none
+ALTER TABLE spatial_ref_sys DROP CONSTRAINT spatial_ref_sys_pkey, ADD COLUMN number serial PRIMARY KEY;
+SELECT pg_temp.error_of('SELECT typify(ST_MakeEnvelope(0, 0, 2, 2, 4326), 25000)');
+ALTER TABLE spatial_ref_sys DROP CONSTRAINT spatial_ref_sys_pkey;
+SELECT pg_temp.error_of('SELECT typify(ST_MakeEnvelope(0, 0, 2, 2, 4326), 25000)');
+SELECT pg_temp.error_of('SELECT typify(ST_MakeEnvelope(0, 0, 2, 2, 2056), 25000)');
 ROLLBACK;
 
 -- two in a group: an error; in two groups: fine
