@@ -214,6 +214,33 @@ prepare_mesh(ty_run *run, uint64_t *keys, ty_stop stop)
 }
 
 static ty_status
+compute_keys(const ty_run *run, uint64_t *keys)
+{
+	for (size_t v = 0; v < run->n; v++)
+	{
+		if (ty_interrupted_at(run->env, v))
+			return TY_INTERRUPTED;
+		keys[v] = ty_hilbert_key(run->position[v]);
+	}
+	return TY_OK;
+}
+
+/* Mesh and queue; none where the merges at cost 0 were enough. */
+static ty_status
+prepare(ty_run *run, ty_stop stop)
+{
+	uint64_t *keys = ty_allocate_array(run->env, run->n, sizeof *keys);
+	ty_status status = keys == NULL ? TY_NO_MEMORY : compute_keys(run, keys);
+
+	if (status == TY_OK)
+		status = prepare_mesh(run, keys, stop);
+	if (status == TY_OK && run->mesh.env != NULL)
+		status = ty_queue_begin(run, keys); /* the keys have served: their room serves again */
+	ty_release(run->env, keys);
+	return status;
+}
+
+static ty_status
 allocate_run(ty_run *run, bool with_near)
 {
 	run->cluster = ty_allocate_array(run->env, run->n, sizeof *run->cluster);
@@ -267,8 +294,8 @@ allocate_sequence(const ty_environment *env, size_t merges, bool with_cost, ty_s
 }
 
 ty_status
-ty_collapse(const ty_environment *env, ty_position *position, uint64_t *keys, size_t n, double s_u, ty_stop stop,
-			bool with_cost, ty_after_merge after_merge, void *context, ty_sequence *sequence)
+ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s_u, ty_stop stop, bool with_cost,
+			ty_after_merge after_merge, void *context, ty_sequence *sequence)
 {
 	size_t least = stop.min_distance > 0 || stop.count < 1 ? 1 : stop.count;
 	ty_run run = {.env = env,
@@ -289,9 +316,7 @@ ty_collapse(const ty_environment *env, ty_position *position, uint64_t *keys, si
 	{
 		status = allocate_run(&run, stop.min_distance > 0);
 		if (status == TY_OK)
-			status = prepare_mesh(&run, keys, stop);
-		if (status == TY_OK && run.mesh.env != NULL)
-			status = ty_queue_begin(&run, keys); /* the keys have served: their room serves again */
+			status = prepare(&run, stop);
 		if (status == TY_OK && run.mesh.env != NULL)
 			status = collapse_all(&run, stop);
 		free_run(&run);

@@ -29,12 +29,11 @@ typedef struct ty_sequence
 typedef void (*ty_after_merge)(void *context, const ty_mesh *mesh, size_t step);
 
 /*
- * Collapses n >= 1 vertices, position[rank] ascending by keys[rank] (canonical order, grid.h); keys serve
- * as scratch and position ends as the positions of the vertices that are left. 0 <= s_u <= 1. The sequence is
- * the caller's to free with ty_sequence_free.
+ * Collapses n >= 1 vertices, position[rank] in canonical order (grid.h). position ends as the positions of the
+ * vertices that are left. 0 <= s_u <= 1. The sequence is the caller's to free with ty_sequence_free.
  */
-ty_status ty_collapse(const ty_environment *env, ty_position *position, uint64_t *keys, size_t n, double s_u,
-					  ty_stop stop, bool with_cost, ty_after_merge after_merge, void *context, ty_sequence *sequence);
+ty_status ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s_u, ty_stop stop,
+					  bool with_cost, ty_after_merge after_merge, void *context, ty_sequence *sequence);
 void ty_sequence_free(const ty_environment *env, ty_sequence *sequence);
 
 /*

@@ -243,7 +243,7 @@ find_stop(const group *g, size_t n)
 }
 
 static ty_status
-order_and_collapse(const ty_environment *env, group *g, size_t n, ty_sequence *sequence)
+order_group(const ty_environment *env, group *g, size_t n)
 {
 	uint64_t *keys = ty_allocate_array(env, n, sizeof *keys);
 	ty_status status = TY_NO_MEMORY;
@@ -252,9 +252,6 @@ order_and_collapse(const ty_environment *env, group *g, size_t n, ty_sequence *s
 	g->position = ty_allocate_array(env, n, sizeof *g->position);
 	if (keys != NULL && g->order != NULL && g->position != NULL)
 		status = ty_canonical_order(env, g->buildings, n, &g->grid, g->order, g->position, keys);
-	if (status == TY_OK)
-		status =
-			ty_collapse(env, g->position, keys, n, g->parameters->s_u, find_stop(g, n), false, NULL, NULL, sequence);
 	ty_release(env, keys);
 	return status;
 }
@@ -273,7 +270,9 @@ ty_typify(const ty_environment *env, const ty_building *buildings, size_t n, con
 	if (status != TY_OK)
 		return status;
 	g.scale = fit_area_scale(buildings, n);
-	status = order_and_collapse(env, &g, n, &sequence);
+	status = order_group(env, &g, n);
+	if (status == TY_OK)
+		status = ty_collapse(env, g.position, n, p->s_u, find_stop(&g, n), false, NULL, NULL, &sequence);
 	if (status == TY_OK)
 		status = cut_and_describe(env, &g, &sequence, n, result);
 	ty_sequence_free(env, &sequence);

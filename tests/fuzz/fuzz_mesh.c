@@ -20,7 +20,6 @@ typedef struct input
 	ty_stop stop;
 	size_t n;
 	ty_position position[MOST];
-	uint64_t keys[MOST];
 } input;
 
 static input in;
@@ -72,8 +71,6 @@ read_input(const unsigned char *data, size_t size)
 		in.position[i].y = origin + (int32_t) data[HEADER + 2 * i + 1] * (1 << shift);
 	}
 	qsort(in.position, in.n, sizeof *in.position, compare_by_key);
-	for (size_t i = 0; i < in.n; i++)
-		in.keys[i] = ty_hilbert_key(in.position[i]);
 }
 
 int
@@ -95,8 +92,8 @@ LLVMFuzzerTestOneInput(const unsigned char *data, size_t size)
 	}
 	for (size_t i = 0; i < in.n; i++)
 		moved[i] = in.position[i];
-	if (ty_collapse(&ty_plain_environment, moved, in.keys, in.n, in.s_u, in.stop, true, check_after_merge, NULL,
-					&sequence) != TY_OK)
+	if (ty_collapse(&ty_plain_environment, moved, in.n, in.s_u, in.stop, true, check_after_merge, NULL, &sequence) !=
+		TY_OK)
 		give_up("no success");
 	ty_sequence_free(&ty_plain_environment, &sequence);
 	return 0;

@@ -180,21 +180,16 @@ compare_with_reference(const ty_position *position, size_t n, double s_u, ty_sto
 {
 	static comparison c;
 	ty_position moved[REFERENCE_MAX];
-	uint64_t keys[REFERENCE_MAX];
 	ty_sequence sequence = {0, NULL, NULL, NULL};
 	ty_status status;
 	const char *difference;
 
-	for (size_t i = 0; i < n; i++)
-	{
-		moved[i] = position[i];
-		keys[i] = ty_hilbert_key(position[i]);
-	}
+	memcpy(moved, position, n * sizeof *moved);
 	reference_begin(&c.ref, position, n, s_u, candidates);
 	c.candidates = candidates;
 	c.merges = 0;
 	c.difference = NULL;
-	status = ty_collapse(&ty_plain_environment, moved, keys, n, s_u, stop, true, after_merge, &c, &sequence);
+	status = ty_collapse(&ty_plain_environment, moved, n, s_u, stop, true, after_merge, &c, &sequence);
 	if (status != TY_OK)
 		return "the core gives an error";
 	difference = compare_sequence(&c, &sequence, stop);

@@ -178,7 +178,7 @@ costs_are_not_kept_unless_asked_for(void)
 	ty_sequence sequence;
 
 	sort_along_curve(position, keys, 2);
-	NEED(ty_collapse(&ty_plain_environment, position, keys, 2, 0, stop, false, NULL, NULL, &sequence) == TY_OK, "no");
+	NEED(ty_collapse(&ty_plain_environment, position, 2, 0, stop, false, NULL, NULL, &sequence) == TY_OK, "no");
 	CHECK(sequence.cost == NULL && sequence.count == 1, "%zu merges", sequence.count);
 	ty_sequence_free(&ty_plain_environment, &sequence);
 }
