@@ -13,7 +13,8 @@ BEGIN
 	IF polygons = 0 THEN
 		RAISE EXCEPTION 'there is no building polygon in this file';
 	ELSIF srids LIKE '%,%' THEN
-		RAISE EXCEPTION 'the buildings have several SRIDs: %', srids USING HINT = 'Bring them to one with ST_Transform.';
+		RAISE EXCEPTION 'the buildings have several SRIDs: %', srids
+			USING HINT = 'Bring them to one with ST_Transform.';
 	END IF;
 END $$;
 
@@ -22,11 +23,13 @@ CREATE TABLE demo.subject AS SELECT 'your buildings'::text AS name, nullif(:'att
 
 -- The UTM zone of the middle for degrees; anything else stays as it is
 CREATE TABLE demo.reference AS
-SELECT srid, CASE WHEN degrees THEN (CASE WHEN y < 0 THEN 32700 ELSE 32600 END + 1 + floor((x + 180) / 6)::integer % 60) ELSE srid END AS target,
-	degrees
+SELECT srid, degrees, CASE
+	WHEN degrees THEN CASE WHEN y < 0 THEN 32700 ELSE 32600 END + 1 + floor((x + 180) / 6)::integer % 60
+	ELSE srid END AS target
 FROM (SELECT ST_SRID(box) AS srid, ST_X(ST_Centroid(box)) AS x, ST_Y(ST_Centroid(box)) AS y,
 		typify_metres_per_unit(ST_SRID(box)) = 'NaN' AS degrees
-	  FROM (SELECT ST_SetSRID(ST_Extent(geom)::geometry, min(ST_SRID(geom))) AS box FROM raw_buildings) AS extent) AS middle;
+	  FROM (SELECT ST_SetSRID(ST_Extent(geom)::geometry, min(ST_SRID(geom))) AS box
+			FROM raw_buildings) AS extent) AS middle;
 
 \pset tuples_only on
 \pset format unaligned

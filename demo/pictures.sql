@@ -5,8 +5,8 @@
 
 CREATE FUNCTION demo.before_after(at_scale double precision) RETURNS text LANGUAGE sql STABLE
 BEGIN ATOMIC
-	SELECT typify_svg(demo.buildings(frame), geom, scale, demo.roads(scale, frame), upper(left(name, 1)) || substr(name, 2),
-		frame => frame, attribution => attribution)
+	SELECT typify_svg(demo.buildings(frame), geom, scale, demo.roads(scale, frame),
+		upper(left(name, 1)) || substr(name, 2), frame => frame, attribution => attribution)
 	FROM demo.result JOIN demo.frame USING (scale), demo.subject
 	WHERE scale = at_scale AND grouped_by = '';
 END;
@@ -20,7 +20,8 @@ SELECT demo.before_after(100000) \g :file
 \set file :out '/scale-200000.svg'
 SELECT demo.before_after(200000) \g :file
 INSERT INTO demo.picture (name, caption)
-SELECT 'scale-' || scale, 'before and after at true map size, 1:' || typify_svg_number(scale) FROM demo.scale ORDER BY scale;
+SELECT 'scale-' || scale, 'before and after at true map size, 1:' || typify_svg_number(scale)
+FROM demo.scale ORDER BY scale;
 
 \set file :out '/sheet-true-size.svg'
 SELECT typify_svg_sheet(demo.five(frame), 5, 'True map size', attribution)

@@ -28,8 +28,8 @@ END;
 
 -- The whole when its map at this scale fits into width x height millimetres and has not too many buildings for
 -- a picture; else the window with the most buildings, among the whole, half and quarter of that size.
-CREATE FUNCTION demo.densest(at_scale double precision, width double precision, height double precision) RETURNS geometry
-LANGUAGE sql STABLE
+CREATE FUNCTION demo.densest(at_scale double precision, width double precision, height double precision)
+RETURNS geometry LANGUAGE sql STABLE
 BEGIN ATOMIC
 	WITH extent AS (
 		SELECT ST_Extent(geom) AS box, min(ST_SRID(geom)) AS srid FROM public.buildings
@@ -67,7 +67,8 @@ SELECT 0, demo.densest(50000, 84, 64);
 CREATE FUNCTION demo.panel(buildings geometry, placeholders geometry, at_scale double precision, frame geometry,
 	title text, drawn_at double precision DEFAULT NULL) RETURNS text LANGUAGE sql STABLE
 BEGIN ATOMIC
-	SELECT typify_svg(buildings, placeholders, at_scale, demo.roads(least(at_scale, coalesce(drawn_at, at_scale)), frame), title,
+	SELECT typify_svg(buildings, placeholders, at_scale,
+		demo.roads(least(at_scale, coalesce(drawn_at, at_scale)), frame), title,
 		coalesce(at_scale / drawn_at, 1), frame);
 END;
 

@@ -76,7 +76,8 @@ list_pictures() {
 
 mkdir -p "$OUT"
 OUT=$(cd "$OUT" && pwd)
-psql -qX -d "${PGDATABASE:-postgres}" -c "DROP DATABASE IF EXISTS $DATABASE" -c "CREATE DATABASE $DATABASE" 2>&1 | grep -v NOTICE || true
+psql -qX -d "${PGDATABASE:-postgres}" -c "DROP DATABASE IF EXISTS $DATABASE" -c "CREATE DATABASE $DATABASE" 2>&1 |
+	grep -v NOTICE || true
 export PGDATABASE=$DATABASE PGOPTIONS="${PGOPTIONS:-} -c client_min_messages=warning"
 sql -c "CREATE EXTENSION postgis" -c "CREATE EXTENSION typify"
 load

@@ -7,15 +7,19 @@ DECLARE
 BEGIN
 	FOR at_scale IN SELECT scale FROM demo.scale ORDER BY scale LOOP
 		began := clock_timestamp();
-		INSERT INTO demo.result (scale, grouped_by, geom) SELECT at_scale, '', typify(geom, at_scale, 0.5) FROM buildings;
-		UPDATE demo.result SET milliseconds = 1000 * extract(epoch FROM clock_timestamp() - began) WHERE milliseconds IS NULL;
+		INSERT INTO demo.result (scale, grouped_by, geom)
+		SELECT at_scale, '', typify(geom, at_scale, 0.5) FROM buildings;
+		UPDATE demo.result SET milliseconds = 1000 * extract(epoch FROM clock_timestamp() - began)
+		WHERE milliseconds IS NULL;
 		began := clock_timestamp();
 		INSERT INTO demo.result (scale, grouped_by, geom)
 		SELECT at_scale, 'block', ST_Collect(placeholder.geom)
-		FROM (SELECT typify(geom, at_scale, 0.5) AS placeholders FROM buildings WHERE block IS NOT NULL GROUP BY block) AS blocks,
+		FROM (SELECT typify(geom, at_scale, 0.5) AS placeholders
+			  FROM buildings WHERE block IS NOT NULL GROUP BY block) AS blocks,
 			ST_Dump(placeholders) AS placeholder
 		HAVING count(*) > 0;
-		UPDATE demo.result SET milliseconds = 1000 * extract(epoch FROM clock_timestamp() - began) WHERE milliseconds IS NULL;
+		UPDATE demo.result SET milliseconds = 1000 * extract(epoch FROM clock_timestamp() - began)
+		WHERE milliseconds IS NULL;
 	END LOOP;
 	UPDATE demo.result SET placeholders = ST_NumGeometries(geom), area = ST_Area(geom);
 END $$;

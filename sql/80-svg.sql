@@ -9,7 +9,8 @@ BEGIN ATOMIC
 	SELECT coalesce((
 		SELECT CASE
 			WHEN proj4text ~ '\+proj=(longlat|latlong)' THEN 'NaN'::double precision
-			WHEN proj4text ~ '\+to_meter=[0-9.]+' THEN substring(proj4text FROM '\+to_meter=([0-9.]+)')::double precision
+			WHEN proj4text ~ '\+to_meter=[0-9.]+'
+				THEN substring(proj4text FROM '\+to_meter=([0-9.]+)')::double precision
 			WHEN proj4text ~ '\+units=us-ft' THEN 1200 / 3937.0
 			WHEN proj4text ~ '\+units=ft' THEN 0.3048
 			WHEN proj4text ~ '\+units=km' THEN 1000
@@ -40,20 +41,23 @@ RETURN format('<text x="%s" y="%s" font-size="%s"%s>%s</text>' || E'\n',
 COMMENT ON FUNCTION typify_svg_text(double precision, double precision, double precision, text, text) IS
 'A line of text for typify_svg; style is further SVG attributes';
 
-CREATE FUNCTION typify_svg_paths(geom geometry, frame box2d, mm_per_unit double precision) RETURNS text
+CREATE FUNCTION typify_svg_paths(geom geometry, frame box2d, mm_per_unit double precision, line_style text DEFAULT '')
+RETURNS text
 LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
 BEGIN ATOMIC
 	SELECT string_agg(CASE ST_Dimension(paper)
 			WHEN 0 THEN format('<path d="M %s %s h 0" stroke="#1a1a1a" stroke-width="0.3"/>',
 				round(ST_X(paper)::numeric, 3), round(-ST_Y(paper)::numeric, 3))
+			WHEN 1 THEN format('<path d="%s"%s/>', ST_AsSVG(paper, 0, 3), line_style)
 			ELSE format('<path d="%s"/>', ST_AsSVG(paper, 0, 3)) END, E'\n' ORDER BY path)
 	FROM (SELECT part.path,
 			ST_TransScale(ST_Force2D(part.geom), -ST_XMin(frame), -ST_YMax(frame), mm_per_unit, mm_per_unit) AS paper
 		  FROM ST_Dump(geom) AS part
 		  WHERE part.geom && frame::geometry AND NOT ST_IsEmpty(part.geom)) AS drawn;
 END;
-COMMENT ON FUNCTION typify_svg_paths(geometry, box2d, double precision) IS
-'The parts of a geometry that meet the frame as SVG paths, in millimetres from the upper left corner of the frame';
+COMMENT ON FUNCTION typify_svg_paths(geometry, box2d, double precision, text) IS
+'The parts of a geometry that meet the frame as SVG paths, in millimetres from its upper left corner;
+line_style is further SVG attributes of lines';
 
 CREATE FUNCTION typify_svg_scale_bar(x double precision, y double precision, room double precision,
 	mm_per_metre double precision) RETURNS text
@@ -99,10 +103,12 @@ BEGIN ATOMIC
 </svg>
 $svg$, round(x::numeric, 2), round(y::numeric, 2), round((mm_per_unit * (ST_XMax(frame) - ST_XMin(frame)))::numeric, 2),
 		round((mm_per_unit * (ST_YMax(frame) - ST_YMin(frame)))::numeric, 2), road_width,
-		typify_svg_paths(roads, frame, mm_per_unit), style, typify_svg_paths(geom, frame, mm_per_unit));
+		typify_svg_paths(roads, frame, mm_per_unit), style,
+		typify_svg_paths(geom, frame, mm_per_unit, ' fill="none" stroke="#1a1a1a" stroke-width="0.1"'));
 END;
 COMMENT ON FUNCTION typify_svg_panel(double precision, double precision, box2d, double precision, geometry, text, text,
-	geometry, double precision) IS 'One framed map for typify_svg, its count above it: roads underneath, buildings above';
+	geometry, double precision) IS
+'One framed map for typify_svg, its count above it: roads underneath, buildings above';
 
 CREATE FUNCTION typify_svg_document(width double precision, height double precision, content text) RETURNS text
 LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
@@ -125,6 +131,34 @@ BEGIN ATOMIC
 END;
 COMMENT ON FUNCTION typify_svg_frame(geometry, geometry, double precision) IS
 'The box that typify_svg shows, at least 34 x 20 mm on paper';
+
+CREATE FUNCTION typify_svg_check_geometry(geom geometry) RETURNS void
+LANGUAGE plpgsql IMMUTABLE STRICT PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	-- what ST_AsSVG cannot write
+	undrawn text := (
+		SELECT max(CASE ST_GeometryType(part.geom) WHEN 'ST_Triangle' THEN 'triangles' ELSE 'curves' END)
+		FROM ST_Dump(geom) AS part
+		WHERE ST_GeometryType(part.geom) NOT IN ('ST_Point', 'ST_LineString', 'ST_Polygon'));
+	-- their spelling is that of the C library
+	wrong text := lower(substring(ST_AsText(ST_Force2D(geom), 0) FROM '(?i)-?nan|-?inf'));
+BEGIN
+	IF undrawn IS NOT NULL THEN
+		RAISE EXCEPTION 'a % cannot be drawn: it has %', substr(ST_GeometryType(geom), 4), undrawn
+			USING ERRCODE = '0A000', HINT = CASE undrawn
+				WHEN 'triangles' THEN 'Use ST_MakePolygon(ST_ExteriorRing(geom)) on the triangles of ST_Dump.'
+				ELSE 'Use ST_CurveToLine to turn curves into polygons and lines.' END;
+	END IF;
+	IF wrong IS NOT NULL THEN
+		RAISE EXCEPTION 'a coordinate of the geometry is %, it must be a finite number',
+			CASE WHEN wrong LIKE '%nan' THEN 'NaN' WHEN wrong LIKE '-%' THEN '-Infinity' ELSE 'Infinity' END
+			USING ERRCODE = '22023', HINT = 'Leave such geometries out, or repair them.';
+	END IF;
+END $$;
+COMMENT ON FUNCTION typify_svg_check_geometry(geometry) IS
+'Refuses what typify_svg cannot draw: curves, triangles, coordinates that are no finite numbers';
 
 CREATE FUNCTION typify_svg_check(before geometry, after geometry, scale double precision, roads geometry,
 	magnify double precision, frame geometry) RETURNS integer
@@ -152,6 +186,7 @@ BEGIN
 		RAISE EXCEPTION 'cannot draw geographic coordinates (SRID %) at map scale', srids[1]
 			USING ERRCODE = '22023', HINT = 'Project them first with ST_Transform.';
 	END IF;
+	PERFORM typify_svg_check_geometry(given) FROM unnest(ARRAY[before, after, roads, frame]) AS given;
 	RETURN srids[1];
 END $$;
 COMMENT ON FUNCTION typify_svg_check(geometry, geometry, double precision, geometry, double precision, geometry) IS
@@ -189,7 +224,8 @@ BEGIN
 		x := x + panel_width + margin;
 	END IF;
 	IF after IS NOT NULL THEN
-		picture := picture || typify_svg_panel(x, y, shown, mm_per_unit, after, 'placeholder', black, roads, road_width);
+		picture := picture || typify_svg_panel(x, y, shown, mm_per_unit, after, 'placeholder', black, roads,
+			road_width);
 		x := x + panel_width + margin;
 	END IF;
 	picture := picture || typify_svg_text(margin, bottom + 3.6, 2.3, '1:' || typify_svg_number(scale) || CASE
@@ -198,7 +234,8 @@ BEGIN
 		|| coalesce(typify_svg_text(margin, bottom + 10.4, 1.8, attribution, ' fill="#777"'), '');
 	-- words are as wide as they are long times their size times 0.6, at most
 	RETURN typify_svg_document(
-		greatest(x, 2 * margin + 2.1 * length(coalesce(title, '')), 2 * margin + 1.1 * length(coalesce(attribution, ''))),
+		greatest(x, 2 * margin + 2.1 * length(coalesce(title, '')),
+			2 * margin + 1.1 * length(coalesce(attribution, ''))),
 		bottom + CASE WHEN attribution IS NULL THEN 9.5 ELSE 12.5 END, picture);
 END $$;
 COMMENT ON FUNCTION typify_svg(geometry, geometry, double precision, geometry, text, double precision, geometry, text)

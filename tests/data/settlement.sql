@@ -313,7 +313,8 @@ WHERE piece = 0 OR pg_temp.chance(plot, 6) < 0.55;
 
 INSERT INTO part
 SELECT 270000 + line, k, 'slab', 270000 + line,
-	pg_temp.outline(2085 + 4 * line + 60 * k, 1185 + 66 * line + 9 * k, 0.96, 0.28, pg_temp.rectangle(0, 0, 42 + 6 * (line % 2), 11.5))
+	pg_temp.outline(2085 + 4 * line + 60 * k, 1185 + 66 * line + 9 * k, 0.96, 0.28,
+		pg_temp.rectangle(0, 0, 42 + 6 * (line % 2), 11.5))
 FROM generate_series(0, 2) AS line, generate_series(0, 3) AS k
 UNION ALL
 SELECT 271000, 0, 'school', NULL,

@@ -9,7 +9,8 @@ EXCEPTION WHEN feature_not_supported THEN
 	RETURN true;
 END $$;
 CREATE TEMP TABLE town AS
-SELECT ST_GeomFromText('MULTIPOLYGON(((0 0,3000 0,3000 2000,0 2000,0 0)),((4000 2000,5000 2000,5000 3000,4000 3000,4000 2000)))', 25832) AS before,
+SELECT ST_GeomFromText('MULTIPOLYGON(((0 0,3000 0,3000 2000,0 2000,0 0)),
+		((4000 2000,5000 2000,5000 3000,4000 3000,4000 2000)))', 25832) AS before,
 	ST_GeomFromText('GEOMETRYCOLLECTION(POLYGON((0 0,2000 0,2000 2000,0 2000,0 0)))', 25832) AS after,
 	ST_GeomFromText('LINESTRING(0 -500,6000 3500)', 25832) AS roads;
 
@@ -31,23 +32,33 @@ FROM town, LATERAL (VALUES
 
 -- in feet: 1 000 ft are 304.8 m; without SRID coordinates are metres
 SELECT ST_SRID(square) AS srid, pg_temp.size(typify_svg(square, NULL, 5000)) AS size
-FROM (SELECT ST_SetSRID(ST_MakeEnvelope(0, 0, 1000, 1000), srid) AS square FROM unnest(ARRAY[0, 2263, 25832]) AS srid) AS squares;
+FROM (SELECT ST_SetSRID(ST_MakeEnvelope(0, 0, 1000, 1000), srid) AS square
+	  FROM unnest(ARRAY[0, 2263, 25832]) AS srid) AS squares;
 
 -- nothing to draw, and almost nothing
 SELECT typify_svg(NULL, NULL, 50000) IS NULL AS no_geometry,
 	typify_svg('POLYGON EMPTY', 'GEOMETRYCOLLECTION EMPTY', 50000) IS NULL AS empty_geometry,
-	pg_temp.well_formed(typify_svg('POLYGON EMPTY', NULL, 50000, frame => ST_MakeEnvelope(0, 0, 1, 1))) AS empty_in_frame,
+	pg_temp.well_formed(typify_svg('POLYGON EMPTY', NULL, 50000,
+		frame => ST_MakeEnvelope(0, 0, 1, 1))) AS empty_in_frame,
 	pg_temp.well_formed(typify_svg('POINT(1 1)', 'LINESTRING Z (0 0 1,2 2 1)', 50000)) AS points_and_lines;
-SELECT regexp_matches(typify_svg('MULTIPOINT(1 1,2 2)', 'GEOMETRYCOLLECTION EMPTY', 1000), '>([0-9]+ [a-z]+)<', 'g') AS counted;
+SELECT regexp_matches(typify_svg('MULTIPOINT(1 1,2 2)', 'GEOMETRYCOLLECTION EMPTY', 1000),
+	'>([0-9]+ [a-z]+)<', 'g') AS counted;
 SELECT typify_svg_number(0) AS zero, typify_svg_number(75000) AS thousands, typify_svg_number(1234567) AS millions;
 SELECT typify_svg_escape(E'a<b>&"c"\x01\n') AS escaped;
 
 -- a hole stays a hole
-SELECT typify_svg('POLYGON((0 0,9 0,9 9,0 9,0 0),(3 3,3 6,6 6,6 3,3 3))', NULL, 1000) ~ 'evenodd.*<path d="M [^"M]*Z M [^"M]*Z"/>' AS hole;
+SELECT typify_svg('POLYGON((0 0,9 0,9 9,0 9,0 0),(3 3,3 6,6 6,6 3,3 3))', NULL, 1000)
+	~ 'evenodd.*<path d="M [^"M]*Z M [^"M]*Z"/>' AS hole;
+-- a line is drawn as a line, not filled; faces of a surface are polygons
+SELECT regexp_matches(typify_svg('LINESTRING(0 0,2 2,4 0)', 'MULTISURFACE(((0 0,4 0,4 2,0 0)))', 1000),
+	'<path d="M [^>]*L[^>]*>', 'g') AS drawn;
+SELECT pg_temp.well_formed(typify_svg('POLYHEDRALSURFACE(((0 0 0,0 0 1,0 1 1,0 1 0,0 0 0)))', NULL, 1000)) AS surface;
 
 -- sheets
-SELECT name, pg_temp.size(svg) AS size, pg_temp.well_formed(svg), (SELECT count(*) FROM regexp_matches(svg, '<svg ', 'g')) AS svgs
-FROM (SELECT typify_svg(before, NULL, 50000) AS a, typify_svg(NULL, after, 100000) AS b FROM town) AS pictures, LATERAL (VALUES
+SELECT name, pg_temp.size(svg) AS size, pg_temp.well_formed(svg),
+	(SELECT count(*) FROM regexp_matches(svg, '<svg ', 'g')) AS svgs
+FROM (SELECT typify_svg(before, NULL, 50000) AS a, typify_svg(NULL, after, 100000) AS b FROM town) AS pictures,
+LATERAL (VALUES
 	(1, 'two columns', typify_svg_sheet(ARRAY[a, b])),
 	(2, 'one column', typify_svg_sheet(ARRAY[a, b], 1)),
 	(3, 'NULL in between', typify_svg_sheet(ARRAY[a, NULL, b], 2, 'Title', 'by me')),
@@ -66,9 +77,23 @@ EXCEPTION WHEN OTHERS THEN
 	GET STACKED DIAGNOSTICS said = MESSAGE_TEXT, hint = PG_EXCEPTION_HINT;
 	RETURN concat_ws(' | ', SQLSTATE, said, hint);
 END $$;
-SELECT pg_temp.fails('SELECT typify_svg(''POINT(1 1)'', NULL, ' || scale || ')') FROM unnest(ARRAY['0', '-1', 'NULL', '''NaN''', '''Infinity''']) AS scale;
+SELECT pg_temp.fails('SELECT typify_svg(''POINT(1 1)'', NULL, ' || scale || ')')
+FROM unnest(ARRAY['0', '-1', 'NULL', '''NaN''', '''Infinity''']) AS scale;
 SELECT pg_temp.fails('SELECT typify_svg(''POINT(1 1)'', NULL, 50000, magnify => 0)');
 SELECT pg_temp.fails('SELECT typify_svg(''SRID=25832;POINT(1 1)'', ''SRID=25833;POINT(1 1)'', 50000)');
 SELECT pg_temp.fails('SELECT typify_svg(''SRID=4326;POINT(1 1)'', NULL, 50000)');
+-- what cannot be drawn, wherever it stands
+SELECT pg_temp.fails(format('SELECT typify_svg(%L, NULL, 50000)', shape)) AS before
+FROM unnest(ARRAY['TIN(((0 0,1 0,1 1,0 0)))', 'TRIANGLE((0 0,1 0,1 1,0 0))', 'CIRCULARSTRING(0 0,1 1,2 0)',
+	'GEOMETRYCOLLECTION(POINT(1 1),CURVEPOLYGON(CIRCULARSTRING(0 0,4 0,4 4,0 4,0 0)))',
+	'COMPOUNDCURVE(CIRCULARSTRING(0 0,1 1,2 0),(2 0,3 0))']) AS shape;
+SELECT pg_temp.fails('SELECT typify_svg(NULL, ''TRIANGLE((0 0,1 0,1 1,0 0))'', 50000)') AS after;
+SELECT pg_temp.fails('SELECT typify_svg(''POINT(1 1)'', NULL, 50000, ''CIRCULARSTRING(0 0,1 1,2 0)'')') AS roads;
+SELECT pg_temp.fails(format('SELECT typify_svg(ST_MakeLine(ST_MakePoint(0, 0), ST_MakePoint(%s)), NULL, 50000)', xy))
+FROM unnest(ARRAY['''NaN'', 1', '1, ''Infinity''', '''-Infinity'', 1']) AS xy;
+SELECT pg_temp.fails('SELECT typify_svg(''POINT(1 1)'', NULL, 50000, ST_MakePoint(''NaN'', 1))') AS roads;
+SELECT pg_temp.fails('SELECT typify_svg(ST_MakePoint(1, 1, ''NaN''), NULL, 50000)') AS height;
+SELECT ST_AsText(ST_MakePolygon(ST_ExteriorRing(geom))) AS as_the_hint_says FROM ST_Dump('TIN(((0 0,1 0,1 1,0 0)))');
+
 SELECT pg_temp.fails('SELECT typify_svg_sheet(ARRAY[''<p/>''])');
 SELECT pg_temp.fails('SELECT typify_svg_sheet(ARRAY[''<p/>''], 0)');
