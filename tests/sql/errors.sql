@@ -1,19 +1,6 @@
 -- errors.sql: every wrong parameter is an error that names it, its value and what is allowed
 \pset null '(null)'
-CREATE FUNCTION pg_temp.error_of(query text) RETURNS text LANGUAGE plpgsql AS
-$$
-DECLARE
-	code text;
-	message text;
-	hint text;
-BEGIN
-	EXECUTE query;
-	RETURN 'no error';
-EXCEPTION WHEN OTHERS THEN
-	GET STACKED DIAGNOSTICS code = RETURNED_SQLSTATE, message = MESSAGE_TEXT, hint = PG_EXCEPTION_HINT;
-	RETURN code || ': ' || message || CASE hint WHEN '' THEN '' ELSE ' / ' || hint END;
-END
-$$;
+\i tests/data/error_of.sql
 
 CREATE TEMP TABLE building AS
 SELECT i AS id, ST_MakeEnvelope(i * 20, 0, i * 20 + 10, 8) AS geom FROM generate_series(1, 6) AS i;

@@ -9,20 +9,7 @@ $$
 	FROM unnest((SELECT typify_placeholders(geom, 1, 25000))) AS p
 $$;
 
-CREATE FUNCTION pg_temp.error_of(query text) RETURNS text LANGUAGE plpgsql AS
-$$
-DECLARE
-	code text;
-	message text;
-	hint text;
-BEGIN
-	EXECUTE query;
-	RETURN 'no error';
-EXCEPTION WHEN OTHERS THEN
-	GET STACKED DIAGNOSTICS code = RETURNED_SQLSTATE, message = MESSAGE_TEXT, hint = PG_EXCEPTION_HINT;
-	RETURN code || ': ' || message || CASE hint WHEN '' THEN '' ELSE ' / ' || hint END;
-END
-$$;
+\i tests/data/error_of.sql
 
 -- polygons: holes are subtracted, parts added, Z and M ignored
 SELECT what, pg_temp.measured(geom::geometry)

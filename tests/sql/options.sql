@@ -1,19 +1,6 @@
 -- options.sql: no value slips in unchecked, and no option that is set is ignored
 \pset null '(null)'
-CREATE FUNCTION pg_temp.error_of(query text) RETURNS text LANGUAGE plpgsql AS
-$$
-DECLARE
-	code text;
-	message text;
-	hint text;
-BEGIN
-	EXECUTE query;
-	RETURN 'no error';
-EXCEPTION WHEN OTHERS THEN
-	GET STACKED DIAGNOSTICS code = RETURNED_SQLSTATE, message = MESSAGE_TEXT, hint = PG_EXCEPTION_HINT;
-	RETURN code || ': ' || message || CASE hint WHEN '' THEN '' ELSE ' / ' || hint END;
-END
-$$;
+\i tests/data/error_of.sql
 
 CREATE TABLE typify_test_building AS
 SELECT i AS id, ST_MakeEnvelope(i * 20 + i % 3, i * i % 31, i * 20 + 10, i * i % 31 + 7 + i % 4) AS geom FROM generate_series(1, 40) AS i;

@@ -1,18 +1,5 @@
 -- srid.sql: results carry the SRID of the input; degrees are refused, whoever asks and wherever PostGIS is
-CREATE FUNCTION pg_temp.error_of(query text) RETURNS text LANGUAGE plpgsql SET search_path FROM CURRENT AS
-$$
-DECLARE
-	code text;
-	message text;
-	hint text;
-BEGIN
-	EXECUTE query;
-	RETURN 'no error';
-EXCEPTION WHEN OTHERS THEN
-	GET STACKED DIAGNOSTICS code = RETURNED_SQLSTATE, message = MESSAGE_TEXT, hint = PG_EXCEPTION_HINT;
-	RETURN code || ': ' || message || CASE hint WHEN '' THEN '' ELSE ' / ' || hint END;
-END
-$$;
+\i tests/data/error_of.sql
 
 SELECT srid, ST_SRID(typify(geom, 25000)) AS typified, ST_SRID((typify_placeholders(geom, 1, 25000))[1].geom) AS in_rows,
 	   ST_SRID(typify_rectangle(ST_Centroid(geom), 4, 1, 0)) AS rectangle
