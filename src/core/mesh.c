@@ -597,7 +597,6 @@ rebuild_live(ty_mesh *mesh)
 			status = ty_mesh_triangulate(mesh, list, keys, n);
 		if (status == TY_OK)
 			tell_all_edges(mesh);
-		mesh->rebuilds++;
 		mesh->work += WORK_OF_REBUILDING * n;
 	}
 	ty_release(mesh->env, list);

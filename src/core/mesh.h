@@ -38,8 +38,7 @@ typedef struct ty_mesh
 	uint32_t free_triangle;	 /* list of those given back, linked by adjacent[0], vertices TY_NONE */
 	uint32_t *stack;		 /* half-edges to examine */
 	size_t stack_count, stack_capacity;
-	uint64_t rebuilds; /* how often the mesh was built anew */
-	uint64_t work;	   /* steps of all changes: corners of stars and holes, flips, vertices built anew */
+	uint64_t work; /* steps of all changes: corners of stars and holes, flips, vertices built anew */
 	/* may be NULL; told of every edge that a change makes between two old vertices (and of some that it unmakes) */
 	void (*edge_made)(void *context, uint32_t a, uint32_t b);
 	void *edge_context;
