@@ -32,8 +32,7 @@ typedef struct ty_mesh
 	size_t vertices;		/* length of position */
 	size_t live;			/* vertices in the mesh */
 	ty_triangle *triangles; /* [2 * vertices - 2] */
-	uint32_t
-		*edge; /* [vertices] a half-edge that starts at the vertex; TY_NONE: not in the mesh; 0 for a lone vertex */
+	uint32_t *edge;			/* [vertices] a half-edge that starts there; TY_NONE: not in the mesh; 0: the only vertex */
 	uint32_t used_triangles; /* triangles from here on have never been used */
 	uint32_t free_triangle;	 /* list of those given back, linked by adjacent[0], vertices TY_NONE */
 	uint32_t *stack;		 /* half-edges to examine */
