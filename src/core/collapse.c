@@ -4,12 +4,11 @@
 #include <math.h>
 
 #define POLL_INTERVAL 512 /* merges between two looks for an interrupt: about a millisecond */
-#define FIRST_HEAP 64
 
 /* ---- merging ---- */
 
-static void
-record(ty_run *run, uint32_t kept, uint32_t gone, double cost)
+void
+ty_record(ty_run *run, uint32_t kept, uint32_t gone, double cost)
 {
 	ty_sequence *s = run->sequence;
 
@@ -27,6 +26,27 @@ ty_show(const ty_run *run, const ty_mesh *mesh)
 		run->after_merge(run->context, mesh, run->sequence->count);
 }
 
+/* sum of all that a vertex represents, in cells */
+typedef struct sum
+{
+	int64_t x, y;
+} sum;
+
+static sum
+sum_of(const ty_run *run, uint32_t v, ty_position place)
+{
+	int64_t size = run->vertex[v].size;
+
+	return (sum){size * place.x + run->rest[v].x, size * place.y + run->rest[v].y};
+}
+
+/* what is left of a sum when size members stand at the place: at most half a size, where that is their mean */
+static ty_position
+rest_of(sum s, uint32_t size, ty_position place)
+{
+	return (ty_position){(int32_t) (s.x - (int64_t) size * place.x), (int32_t) (s.y - (int64_t) size * place.y)};
+}
+
 /* sum / count, rounded half up to the grid */
 static int32_t
 mean(int64_t sum, uint32_t count)
@@ -34,24 +54,50 @@ mean(int64_t sum, uint32_t count)
 	return (int32_t) ((2 * sum + count) / (2 * (int64_t) count));
 }
 
-ty_position
-ty_merged_place(const ty_run *run, uint32_t a, uint32_t b)
+static sum
+sum_of_both(const ty_run *run, uint32_t a, uint32_t b)
 {
-	uint32_t size = run->size[a] + run->size[b];
+	sum s = sum_of(run, a, run->vertex[a].position), t = sum_of(run, b, run->vertex[b].position);
 
-	return (ty_position){mean(run->cluster[a].sum_x + run->cluster[b].sum_x, size),
-						 mean(run->cluster[a].sum_y + run->cluster[b].sum_y, size)};
+	return (sum){s.x + t.x, s.y + t.y};
 }
 
 ty_position
-ty_merge(ty_run *run, uint32_t kept, uint32_t gone, double cost)
+ty_merged_place(const ty_run *run, uint32_t a, uint32_t b)
 {
+	sum s = sum_of_both(run, a, b);
+	uint32_t size = run->vertex[a].size + run->vertex[b].size;
+
+	return (ty_position){mean(s.x, size), mean(s.y, size)};
+}
+
+ty_position
+ty_join(ty_run *run, uint32_t kept, uint32_t gone)
+{
+	sum s = sum_of_both(run, kept, gone);
 	ty_position to = ty_merged_place(run, kept, gone);
 
-	run->cluster[kept].sum_x += run->cluster[gone].sum_x;
-	run->cluster[kept].sum_y += run->cluster[gone].sum_y;
-	run->size[kept] += run->size[gone];
-	record(run, kept, gone, cost);
+	run->vertex[kept].size += run->vertex[gone].size;
+	run->rest[kept] = rest_of(s, run->vertex[kept].size, to);
+	return to;
+}
+
+void
+ty_part(ty_run *run, uint32_t kept, uint32_t gone, ty_position merged, ty_position former)
+{
+	sum s = sum_of(run, kept, merged), t = sum_of(run, gone, run->vertex[gone].position);
+
+	run->vertex[kept].size -= run->vertex[gone].size;
+	run->rest[kept] = rest_of((sum){s.x - t.x, s.y - t.y}, run->vertex[kept].size, former);
+}
+
+/* Joins and records; returns the merged place. */
+static ty_position
+merge(ty_run *run, uint32_t kept, uint32_t gone, double cost)
+{
+	ty_position to = ty_join(run, kept, gone);
+
+	ty_record(run, kept, gone, cost);
 	return to;
 }
 
@@ -70,7 +116,7 @@ merge_coincident(ty_run *run, size_t count, uint32_t *distinct, uint64_t *keys, 
 			return TY_INTERRUPTED;
 		if (v > 0 && keys[places - 1] == keys[v] && run->n - run->sequence->count > count)
 		{
-			ty_merge(run, distinct[places - 1], (uint32_t) v, 0);
+			merge(run, distinct[places - 1], (uint32_t) v, 0);
 			ty_show(run, NULL);
 			continue;
 		}
@@ -94,7 +140,7 @@ too_near(ty_run *run, double min_distance)
 	while (run->near_count > 0)
 	{
 		uint32_t v = run->near[run->near_count - 1];
-		uint32_t first = run->mesh.edge[v], h = first;
+		uint32_t first = run->vertex[v].edge, h = first;
 
 		if (first != TY_NONE && run->mesh.live > 1)
 			do
@@ -102,7 +148,7 @@ too_near(ty_run *run, double min_distance)
 				uint32_t w = ty_target(&run->mesh, h);
 
 				if (w != TY_GHOST &&
-					sqrt((double) ty_squared_distance(run->position[v], run->position[w])) < min_distance)
+					sqrt((double) ty_squared_distance(run->vertex[v].position, run->vertex[w].position)) < min_distance)
 					return true;
 			} while ((h = ty_next_around(&run->mesh, h)) != first);
 		run->near_count--;
@@ -135,18 +181,18 @@ static ty_status
 collapse_edge(ty_run *run, ty_edge e, ty_stop stop)
 {
 	uint32_t kept = ty_smaller(e.owner, e.other), gone = ty_larger(e.owner, e.other), met;
-	ty_position to = ty_merge(run, kept, gone, e.cost);
+	ty_position to = merge(run, kept, gone, e.cost);
 	ty_status status = ty_mesh_collapse(&run->mesh, kept, gone, to, &met);
 
 	while (status == TY_OK && met != TY_NONE)
 	{
 		uint32_t first = ty_smaller(kept, met), second = ty_larger(kept, met);
 
-		run->position[kept] = to;
+		run->vertex[kept].position = to;
 		ty_show(run, NULL);
 		if (run->n - run->sequence->count <= stop.count && !(stop.min_distance > 0))
 			return TY_OK;
-		to = ty_merge(run, first, second, 0);
+		to = merge(run, first, second, 0);
 		status = ty_mesh_move(&run->mesh, met, first, to, &met);
 		kept = first;
 	}
@@ -203,7 +249,7 @@ prepare_mesh(ty_run *run, uint64_t *keys, ty_stop stop)
 	status = merge_coincident(run, least, distinct, keys, &places);
 	if (status == TY_OK && run->n - run->sequence->count > least)
 	{
-		status = ty_mesh_build(run->env, run->position, run->n, distinct, keys, places, &run->mesh);
+		status = ty_mesh_build(run->env, run->vertex, run->n, distinct, keys, places, &run->mesh);
 		run->mesh.edge_made = ty_cover_edge;
 		run->mesh.edge_context = run;
 		for (size_t i = 0; status == TY_OK && run->near != NULL && i < places; i++)
@@ -220,7 +266,7 @@ compute_keys(const ty_run *run, uint64_t *keys)
 	{
 		if (ty_interrupted_at(run->env, v))
 			return TY_INTERRUPTED;
-		keys[v] = ty_hilbert_key(run->position[v]);
+		keys[v] = ty_hilbert_key(run->vertex[v].position);
 	}
 	return TY_OK;
 }
@@ -234,34 +280,24 @@ prepare(ty_run *run, ty_stop stop)
 
 	if (status == TY_OK)
 		status = prepare_mesh(run, keys, stop);
-	if (status == TY_OK && run->mesh.env != NULL)
-		status = ty_queue_begin(run, keys); /* the keys have served: their room serves again */
 	ty_release(run->env, keys);
-	return status;
+	return status == TY_OK && run->mesh.env != NULL ? ty_queue_begin(run) : status;
 }
 
+/* The vertices, at their positions. The caller's positions become the rests: there is no more room for either. */
 static ty_status
-allocate_run(ty_run *run, bool with_near)
+allocate_run(ty_run *run, ty_position *position, bool with_near)
 {
-	run->cluster = ty_allocate_array(run->env, run->n, sizeof *run->cluster);
-	run->size = ty_allocate_array(run->env, run->n, sizeof *run->size);
-	run->key = ty_allocate_array(run->env, run->n, sizeof *run->key);
-	run->other = ty_allocate_array(run->env, run->n, sizeof *run->other);
-	run->rekeyed = ty_allocate_array(run->env, run->n, sizeof *run->rekeyed);
-	run->first = ty_allocate_array(run->env, run->n, sizeof *run->first);
-	run->heap = ty_allocate_array(run->env, run->heap_capacity, sizeof *run->heap);
+	run->rest = position;
+	run->vertex = ty_allocate_array(run->env, run->n, sizeof *run->vertex);
 	if (with_near)
 		run->near = ty_allocate_array(run->env, 2 * run->n, sizeof *run->near);
-	if (run->cluster == NULL || run->size == NULL || run->key == NULL || run->other == NULL || run->rekeyed == NULL ||
-		run->first == NULL || run->heap == NULL || (with_near && run->near == NULL))
+	if (run->vertex == NULL || (with_near && run->near == NULL))
 		return TY_NO_MEMORY;
 	for (size_t v = 0; v < run->n; v++)
 	{
-		run->cluster[v] = (ty_cluster){run->position[v].x, run->position[v].y};
-		run->size[v] = 1;
-		run->key[v] = INFINITY;
-		run->other[v] = TY_NONE;
-		run->rekeyed[v] = false;
+		run->vertex[v] = (ty_vertex){position[v], TY_NONE, 1};
+		run->rest[v] = (ty_position){0, 0};
 	}
 	return TY_OK;
 }
@@ -271,13 +307,8 @@ free_run(ty_run *run)
 {
 	if (run->mesh.env != NULL)
 		ty_mesh_free(&run->mesh);
-	ty_release(run->env, run->cluster);
-	ty_release(run->env, run->size);
-	ty_release(run->env, run->key);
-	ty_release(run->env, run->other);
-	ty_release(run->env, run->rekeyed);
-	ty_release(run->env, run->first);
-	ty_release(run->env, run->heap);
+	ty_queue_free(run);
+	ty_release(run->env, run->vertex);
 	ty_release(run->env, run->near);
 }
 
@@ -299,10 +330,8 @@ ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s
 {
 	size_t least = stop.min_distance > 0 || stop.count < 1 ? 1 : stop.count;
 	ty_run run = {.env = env,
-				  .position = position,
 				  .n = n,
 				  .s_u = s_u,
-				  .heap_capacity = FIRST_HEAP,
 				  .sequence = sequence,
 				  .after_merge = after_merge,
 				  .context = context};
@@ -314,11 +343,13 @@ ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s
 	status = allocate_sequence(env, n > least ? n - least : 0, with_cost, sequence);
 	if (status == TY_OK && n > least)
 	{
-		status = allocate_run(&run, stop.min_distance > 0);
+		status = allocate_run(&run, position, stop.min_distance > 0);
 		if (status == TY_OK)
 			status = prepare(&run, stop);
 		if (status == TY_OK && run.mesh.env != NULL)
 			status = collapse_all(&run, stop);
+		for (size_t v = 0; status == TY_OK && v < n; v++)
+			position[v] = run.vertex[v].position;
 		free_run(&run);
 	}
 	if (status != TY_OK)

@@ -62,7 +62,7 @@ distance(ty_position a, ty_position b)
 static double
 length(const ty_run *run, uint32_t a, uint32_t b)
 {
-	return distance(run->position[a], run->position[b]);
+	return distance(run->vertex[a].position, run->vertex[b].position);
 }
 
 /* The least of the distances that (2) and (3) speak of. */
@@ -75,7 +75,7 @@ isolation(const ty_run *run, ty_edge e)
 
 	for (int i = 0; i < 2; i++)
 	{
-		uint32_t first = run->mesh.edge[end[i]], h = first;
+		uint32_t first = run->vertex[end[i]].edge, h = first;
 
 		do
 		{
@@ -83,8 +83,8 @@ isolation(const ty_run *run, ty_edge e)
 
 			if (w == TY_GHOST || w == end[1 - i])
 				continue;
-			nearest = fmin(nearest, distance(run->position[end[i]], run->position[w]));
-			nearest = fmin(nearest, distance(merged, run->position[w]));
+			nearest = fmin(nearest, distance(run->vertex[end[i]].position, run->vertex[w].position));
+			nearest = fmin(nearest, distance(merged, run->vertex[w].position));
 		} while ((h = ty_next_around(&run->mesh, h)) != first);
 	}
 	return nearest;
@@ -152,13 +152,11 @@ gather(ty_run *run, batch *b)
 		b->kept[b->count] = ty_smaller(e.owner, e.other);
 		b->gone[b->count] = ty_larger(e.owner, e.other);
 		b->cost[b->count++] = e.cost;
-		if ((status = ty_queue_set(run, (ty_edge){INFINITY, e.owner, e.other})) != TY_OK ||
-			(status = ty_queue_set(run, (ty_edge){INFINITY, e.other, e.owner})) != TY_OK)
-			return status;
+		ty_queue_part(run, e.owner, e.other);
 	}
 }
 
-/* the length of the shortest edge of the mesh that joins no pair of the batch; those have keys without a cost */
+/* the length of the shortest edge of the mesh that joins no pair of the batch */
 static double
 shortest_outside(const ty_run *run)
 {
@@ -168,7 +166,7 @@ shortest_outside(const ty_run *run)
 	{
 		uint32_t a = ty_origin(&run->mesh, h), b = ty_target(&run->mesh, h);
 
-		if (a < b && b != TY_GHOST && !(run->key[a] == INFINITY && run->other[a] == b))
+		if (a < b && b != TY_GHOST && !ty_queue_partners(run, a, b))
 			shortest = fmin(shortest, length(run, a, b));
 	}
 	return shortest;
@@ -217,7 +215,7 @@ try_batch(ty_run *run, batch *b, bool *valid)
 	if (b->to == NULL)
 		return TY_NO_MEMORY;
 	for (size_t i = 0; i < b->count; i++)
-		b->to[i] = ty_merged_place(run, b->kept[i], b->gone[i]);
+		b->to[i] = ty_join(run, b->kept[i], b->gone[i]);
 	status = ty_mesh_collapse_many(&run->mesh, b->kept, b->gone, b->to, b->count);
 	*valid = status == TY_OK && shortest_outside(run) > b->cost[b->count - 1];
 	return status;
@@ -231,7 +229,7 @@ enter_batch(ty_run *run, const batch *b)
 
 	for (size_t i = 0; i < b->count; i++)
 	{
-		ty_merge(run, b->kept[i], b->gone[i], b->cost[i]);
+		ty_record(run, b->kept[i], b->gone[i], b->cost[i]);
 		ty_show(run, i + 1 < b->count ? NULL : &run->mesh);
 	}
 	for (size_t i = 0; i < b->count && status == TY_OK; i++)
@@ -247,6 +245,8 @@ merge_batch(ty_run *run, batch *b)
 
 	if (status != TY_OK || valid)
 		return status == TY_OK ? enter_batch(run, b) : status;
+	for (size_t i = 0; i < b->count; i++)
+		ty_part(run, b->kept[i], b->gone[i], run->vertex[b->kept[i]].position, b->to[i]);
 	status = ty_mesh_part_many(&run->mesh, b->kept, b->gone, b->to, b->count);
 	return status == TY_OK ? put_back(run, b, 0) : status;
 }

@@ -9,30 +9,39 @@
 typedef struct ty_edge
 {
 	double cost;
-	uint32_t owner, other;
+	uint32_t owner, other; /* other TY_NONE: no edge but a lower bound for the owner's edges */
 } ty_edge;
 
-typedef struct ty_cluster
+/* vertices that wait in a bucket; a cache line */
+typedef struct ty_chunk
 {
-	int64_t sum_x, sum_y; /* of all represented centroids, in grid cells: exact */
-} ty_cluster;
+	uint32_t next, count;
+	uint32_t vertex[14];
+} ty_chunk;
+
+/* The priority order of the edges: see the head of collapse_queue.c. */
+typedef struct ty_queue
+{
+	int32_t *key; /* [n] bits of a float not above the costs of the edges that the vertex covers */
+	ty_edge *heap;
+	size_t heap_count, heap_capacity;
+	uint32_t *bucket; /* [buckets] first chunk of each; those before `next` are done and their keys are in the heap */
+	uint32_t buckets, next;
+	int shift; /* a key's bits below a bucket's number */
+	ty_chunk *chunk;
+	uint32_t used_chunks, free_chunk;
+	size_t chunk_capacity;
+} ty_queue;
 
 typedef struct ty_run
 {
 	const ty_environment *env;
-	ty_position *position;
 	size_t n;
 	double s_u;
 	ty_mesh mesh;
-	ty_cluster *cluster;			/* [n] */
-	uint32_t *size;					/* [n] r, how many buildings a vertex represents */
-	double *key;					/* [n] INFINITY: no edge to cover */
-	uint32_t *other;				/* [n] the other end of the key's edge */
-	bool *rekeyed;					/* [n] the vertex has had another key than its first */
-	uint32_t *first;				/* vertices in the order of their first keys ... */
-	size_t first_count, first_next; /* ... of which those before first_next are done */
-	ty_edge *heap;
-	size_t heap_count, heap_capacity;
+	ty_vertex *vertex;	/* [n] the mesh's */
+	ty_position *rest;	/* [n] sum of the represented centroids less size * position, per coordinate: exact */
+	ty_queue queue;
 	uint32_t *near; /* for min_distance: vertices that may have a neighbour nearer than it; else NULL */
 	size_t near_count;
 	ty_sequence *sequence;
@@ -56,23 +65,48 @@ ty_larger(uint32_t a, uint32_t b)
 
 /* ---- collapse_queue.c ---- */
 
-/* Sorts the first keys of a new mesh; scratch holds n entries. */
-ty_status ty_queue_begin(ty_run *run, uint64_t *scratch);
+/* Makes the queue of a new mesh. */
+ty_status ty_queue_begin(ty_run *run);
+void ty_queue_free(ty_run *run);
 /* Gives the owner a key, and with it its place in the queue; a cost of INFINITY is none. */
 ty_status ty_queue_set(ty_run *run, ty_edge e);
-/* The least edge of the mesh that a key covers; owner TY_NONE when there is none. It stays in the queue. */
+/* The least edge of the mesh; owner TY_NONE when there is none. It stays in the queue. */
 ty_status ty_queue_least(ty_run *run, ty_edge *least);
+/* Takes both ends out of the queue, as partners, until they are given keys again; their edges count as covered. */
+void ty_queue_part(ty_run *run, uint32_t a, uint32_t b);
+/* whether a and b have been taken out as partners */
+bool ty_queue_partners(const ty_run *run, uint32_t a, uint32_t b);
 /* the least edge at v; cost INFINITY when there is none */
 ty_edge ty_least_edge(const ty_run *run, uint32_t v);
 /* the mesh's edge_made: covers an edge between two vertices that keep their keys */
 void ty_cover_edge(void *context, uint32_t a, uint32_t b);
 
+/* ---- collapse_bucket.c ---- */
+
+/* Makes empty buckets for n vertices. */
+ty_status ty_bucket_begin(ty_run *run);
+/* Puts a vertex into the bucket of its key. */
+ty_status ty_bucket_add(ty_run *run, uint32_t v);
+/* Empties the next bucket that is not: its vertices get their least edges as keys, and so a place in the queue. */
+ty_status ty_bucket_drain(ty_run *run, bool *found);
+
+/* the number of a key's bucket */
+static inline uint32_t
+ty_bucket_of(const ty_queue *queue, int32_t key)
+{
+	return (uint32_t) (key - 0x3f800000) >> queue->shift; /* costs are at least 1 */
+}
+
 /* ---- collapse.c ---- */
 
-/* Where the vertex goes that two vertices merge to: the mean of all that both represent. */
+/* Adds gone to kept, which the mesh has not moved yet; returns where kept comes to: the mean of all that both represent. */
+ty_position ty_join(ty_run *run, uint32_t kept, uint32_t gone);
+/* Undoes ty_join. merged: the place that it returned; the vertex is still there. */
+void ty_part(ty_run *run, uint32_t kept, uint32_t gone, ty_position merged, ty_position former);
+/* Where ty_join would bring the two. */
 ty_position ty_merged_place(const ty_run *run, uint32_t a, uint32_t b);
-/* Adds gone to kept and records the merge; returns their merged place. */
-ty_position ty_merge(ty_run *run, uint32_t kept, uint32_t gone, double cost);
+/* Records a merge that has been joined. */
+void ty_record(ty_run *run, uint32_t kept, uint32_t gone, double cost);
 /* What is left to do once a merged vertex is in the mesh. */
 ty_status ty_enter_merged(ty_run *run, uint32_t kept);
 /* For tests: shows the mesh, or NULL while it is behind the merges. */

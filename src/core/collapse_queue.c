@@ -1,20 +1,31 @@
 /*
  * collapse_queue.c - the priority order of the edges: a lazy covering queue.
  *
- * Every vertex has a key: the cost and other end of an edge. The one invariant is: for every edge of the mesh,
- * the key of one of its ends is not greater than the edge, in the order (cost, smaller rank, larger rank). So
- * the least key is a lower bound for all edges. When it is popped its vertex is looked at again: if its least
- * edge is still that one, it is the least of all; if not, the vertex gets its true key and goes back. A collapse
- * therefore has to give a key to one vertex only, the merged one, which covers all its edges; edges that flips
- * make between two others are covered as they are made.
+ * Entries of the queue are edges, or lower bounds for the edges of a vertex. The one invariant is: for every edge
+ * of the mesh there is an entry of one of its ends that is not greater, in the order (cost, smaller rank, larger
+ * rank), a bound coming before all edges of its cost. So the least entry is a lower bound for all edges. If it is
+ * an edge that still exists, it is the least of all; if not, its vertex is looked at again and gets its least edge
+ * as its entry. A collapse therefore has to give an entry to one vertex only, the merged one, which covers all its
+ * edges; edges that flips make between two others are covered as they are made.
  *
- * The first keys are sorted once and read in order; only vertices that got a new key enter the heap. Entries
- * are not removed when a key changes: an entry counts only while it equals its vertex's key.
+ * A vertex's key is the cost of its entry, rounded down to a float. Entries are not removed when a vertex gets
+ * another: one that differs from the key counts no longer. (One that equals it by chance does no harm: it is
+ * checked like any other.)
+ *
+ * Entries of least cost are in a heap, all others wait in buckets by their keys, as bounds (collapse_bucket.c).
  */
 #include "collapse_internal.h"
 
 #include <math.h>
 #include <string.h>
+
+/* From this many vertices on there are buckets; fewer and their heap fit into a cache. Tests set it. */
+#ifndef TY_LEAST_BUCKETED
+#define TY_LEAST_BUCKETED 2048
+#endif
+#define FIRST_HEAP 64
+
+#define NO_KEY 0x7f800000 /* INFINITY: nothing to cover */
 
 /* ---- cost and order ---- */
 
@@ -22,27 +33,35 @@
 static double
 edge_cost(const ty_run *run, uint32_t a, uint32_t b)
 {
-	double length = sqrt((double) ty_squared_distance(run->position[a], run->position[b]));
-	double factor = run->s_u * (((double) run->size[a] - 1) + ((double) run->size[b] - 1)) + 1;
+	const ty_vertex *p = &run->vertex[a], *q = &run->vertex[b];
+	double length = sqrt((double) ty_squared_distance(p->position, q->position));
+	double factor = run->s_u * (((double) p->size - 1) + ((double) q->size - 1)) + 1;
 
 	return factor * length;
 }
 
-/* the total order of edges: cost, smaller rank, larger rank */
+/* the total order of entries: cost, bounds first, smaller rank, larger rank */
 static bool
 before(ty_edge a, ty_edge b)
 {
 	if (a.cost != b.cost)
 		return a.cost < b.cost;
+	if (a.other == TY_NONE || b.other == TY_NONE)
+		return a.other == TY_NONE && b.other != TY_NONE;
 	if (ty_smaller(a.owner, a.other) != ty_smaller(b.owner, b.other))
 		return ty_smaller(a.owner, a.other) < ty_smaller(b.owner, b.other);
 	return ty_larger(a.owner, a.other) < ty_larger(b.owner, b.other);
 }
 
-static ty_edge
-key_of(const ty_run *run, uint32_t v)
+/* bits of the largest float that is not above a cost; they ascend as costs do, which are not negative */
+static int32_t
+key_of_cost(double cost)
 {
-	return (ty_edge){run->key[v], v, run->other[v]};
+	float rounded = (float) cost;
+	int32_t bits;
+
+	memcpy(&bits, &rounded, sizeof bits);
+	return (double) rounded > cost ? bits - 1 : bits;
 }
 
 /* ---- heap: 4-ary, the least on top ---- */
@@ -69,34 +88,41 @@ sift_down(ty_edge *heap, size_t count, size_t at)
 	heap[at] = e;
 }
 
-/* whether the ty_edge is the current key of a vertex that is still there */
+static void
+heapify(ty_queue *queue)
+{
+	for (size_t i = queue->heap_count / 4 + 1; i-- > 0 && queue->heap_count > 0;)
+		sift_down(queue->heap, queue->heap_count, i);
+}
+
+/* whether an entry is still its vertex's, and the vertex still there */
 static bool
 is_current(const ty_run *run, ty_edge e)
 {
-	return run->mesh.edge[e.owner] != TY_NONE && run->key[e.owner] == e.cost && run->other[e.owner] == e.other;
+	return run->vertex[e.owner].edge != TY_NONE && run->queue.key[e.owner] == key_of_cost(e.cost);
 }
 
 /* Drops entries that no longer count, or finds more room. */
 static ty_status
 make_room(ty_run *run)
 {
+	ty_queue *queue = &run->queue;
 	size_t count = 0;
 
-	for (size_t i = 0; i < run->heap_count; i++)
-		if (is_current(run, run->heap[i]))
-			run->heap[count++] = run->heap[i];
-	run->heap_count = count;
-	for (size_t i = count / 4 + 1; i-- > 0 && count > 0;)
-		sift_down(run->heap, count, i);
-	if (count > run->heap_capacity / 2)
+	for (size_t i = 0; i < queue->heap_count; i++)
+		if (is_current(run, queue->heap[i]))
+			queue->heap[count++] = queue->heap[i];
+	queue->heap_count = count;
+	heapify(queue);
+	if (count > queue->heap_capacity / 2)
 	{
-		size_t capacity = 2 * run->heap_capacity;
-		ty_edge *heap = ty_reallocate_array(run->env, run->heap, capacity, sizeof *heap);
+		size_t capacity = 2 * queue->heap_capacity;
+		ty_edge *heap = ty_reallocate_array(run->env, queue->heap, capacity, sizeof *heap);
 
 		if (heap == NULL)
 			return TY_NO_MEMORY;
-		run->heap = heap;
-		run->heap_capacity = capacity;
+		queue->heap = heap;
+		queue->heap_capacity = capacity;
 	}
 	return TY_OK;
 }
@@ -104,27 +130,28 @@ make_room(ty_run *run)
 static ty_status
 push(ty_run *run, ty_edge e)
 {
+	ty_queue *queue = &run->queue;
 	size_t at;
 
-	if (run->heap_count == run->heap_capacity)
+	if (queue->heap_count == queue->heap_capacity)
 	{
 		ty_status status = make_room(run);
 
 		if (status != TY_OK)
 			return status;
 	}
-	for (at = run->heap_count++; at > 0 && before(e, run->heap[(at - 1) / 4]); at = (at - 1) / 4)
-		run->heap[at] = run->heap[(at - 1) / 4];
-	run->heap[at] = e;
+	for (at = queue->heap_count++; at > 0 && before(e, queue->heap[(at - 1) / 4]); at = (at - 1) / 4)
+		queue->heap[at] = queue->heap[(at - 1) / 4];
+	queue->heap[at] = e;
 	return TY_OK;
 }
 
 static void
-pop(ty_run *run)
+pop(ty_queue *queue)
 {
-	run->heap[0] = run->heap[--run->heap_count];
-	if (run->heap_count > 0)
-		sift_down(run->heap, run->heap_count, 0);
+	queue->heap[0] = queue->heap[--queue->heap_count];
+	if (queue->heap_count > 0)
+		sift_down(queue->heap, queue->heap_count, 0);
 }
 
 /* ---- keys ---- */
@@ -132,17 +159,33 @@ pop(ty_run *run)
 ty_status
 ty_queue_set(ty_run *run, ty_edge e)
 {
-	run->key[e.owner] = e.cost;
-	run->other[e.owner] = e.other;
-	run->rekeyed[e.owner] = true;
-	return e.cost < INFINITY ? push(run, e) : TY_OK;
+	ty_queue *queue = &run->queue;
+
+	queue->key[e.owner] = key_of_cost(e.cost);
+	if (e.cost == INFINITY)
+		return TY_OK;
+	return ty_bucket_of(queue, queue->key[e.owner]) < queue->next ? push(run, e) : ty_bucket_add(run, e.owner);
+}
+
+/* A partner's key is negative: below all costs, and unlike any entry's. */
+void
+ty_queue_part(ty_run *run, uint32_t a, uint32_t b)
+{
+	run->queue.key[a] = (int32_t) (b | 0x80000000);
+	run->queue.key[b] = (int32_t) (a | 0x80000000);
+}
+
+bool
+ty_queue_partners(const ty_run *run, uint32_t a, uint32_t b)
+{
+	return run->queue.key[a] == (int32_t) (b | 0x80000000);
 }
 
 ty_edge
 ty_least_edge(const ty_run *run, uint32_t v)
 {
 	ty_edge least = {INFINITY, v, TY_NONE};
-	uint32_t first = run->mesh.edge[v], h = first;
+	uint32_t first = run->vertex[v].edge, h = first;
 
 	if (run->mesh.live < 2)
 		return least;
@@ -161,20 +204,26 @@ ty_least_edge(const ty_run *run, uint32_t v)
 	return least;
 }
 
+/* An end whose key is as large as the edge's covers it only perhaps: keys are rounded. */
 void
 ty_cover_edge(void *context, uint32_t a, uint32_t b)
 {
 	ty_run *run = context;
 	ty_edge e = {edge_cost(run, a, b), a, b};
+	int32_t key = key_of_cost(e.cost);
 
-	if (run->status == TY_OK && before(e, key_of(run, a)) && before(e, key_of(run, b)))
+	if (run->status == TY_OK && run->queue.key[a] >= key && run->queue.key[b] >= key)
 		run->status = ty_queue_set(run, e);
 }
 
-/* The first keys: every edge is covered by its end of smaller rank. */
+/* ---- the first entries: every edge is covered by its end of smaller rank ---- */
+
 static ty_status
-first_keys(ty_run *run)
+fill_buckets(ty_run *run)
 {
+	ty_queue *queue = &run->queue;
+	ty_status status = TY_OK;
+
 	for (uint32_t h = 0; h < 3 * run->mesh.used_triangles; h++)
 	{
 		uint32_t a = ty_origin(&run->mesh, h), b = ty_target(&run->mesh, h);
@@ -183,80 +232,123 @@ first_keys(ty_run *run)
 			return TY_INTERRUPTED;
 		if (a < b && b != TY_GHOST)
 		{
-			ty_edge e = {edge_cost(run, a, b), a, b};
+			int32_t key = key_of_cost(edge_cost(run, a, b));
 
-			if (before(e, key_of(run, a)))
-			{
-				run->key[a] = e.cost;
-				run->other[a] = b;
-			}
+			if (key < queue->key[a])
+				queue->key[a] = key;
 		}
 	}
+	for (uint32_t v = 0; v < run->n && status == TY_OK; v++)
+		if (queue->key[v] != NO_KEY)
+			status = ty_bucket_add(run, v);
+	return status;
+}
+
+/* The heap has room for an entry of every vertex. */
+static void
+fill_heap(ty_run *run)
+{
+	ty_queue *queue = &run->queue;
+
+	for (uint32_t v = 0; v < run->n; v++)
+		queue->heap[v] = (ty_edge){INFINITY, v, TY_NONE};
+	for (uint32_t h = 0; h < 3 * run->mesh.used_triangles; h++)
+	{
+		uint32_t a = ty_origin(&run->mesh, h), b = ty_target(&run->mesh, h);
+
+		if (a < b && b != TY_GHOST)
+		{
+			ty_edge e = {edge_cost(run, a, b), a, b};
+
+			if (before(e, queue->heap[a]))
+				queue->heap[a] = e;
+		}
+	}
+	for (uint32_t v = 0; v < run->n; v++)
+		if (queue->heap[v].other != TY_NONE)
+		{
+			queue->key[v] = key_of_cost(queue->heap[v].cost);
+			queue->heap[queue->heap_count++] = queue->heap[v];
+		}
+	heapify(queue);
+}
+
+ty_status
+ty_queue_begin(ty_run *run)
+{
+	ty_queue *queue = &run->queue;
+	bool bucketed = run->mesh.live >= TY_LEAST_BUCKETED;
+
+	queue->heap_capacity = bucketed ? FIRST_HEAP : run->n + 1;
+	queue->next = UINT32_MAX;
+	queue->key = ty_allocate_array(run->env, run->n, sizeof *queue->key);
+	queue->heap = ty_allocate_array(run->env, queue->heap_capacity, sizeof *queue->heap);
+	if (queue->key == NULL || queue->heap == NULL)
+		return TY_NO_MEMORY;
+	for (size_t v = 0; v < run->n; v++)
+		queue->key[v] = NO_KEY;
+	if (bucketed)
+	{
+		ty_status status = ty_bucket_begin(run);
+
+		return status == TY_OK ? fill_buckets(run) : status;
+	}
+	fill_heap(run);
 	return TY_OK;
 }
 
-/* Costs are not negative: their bits ascend as they do. */
-ty_status
-ty_queue_begin(ty_run *run, uint64_t *bits)
+void
+ty_queue_free(ty_run *run)
 {
-	ty_status status = first_keys(run);
-	size_t count = 0;
-
-	for (size_t v = 0; v < run->n; v++)
-		if (run->key[v] < INFINITY)
-		{
-			memcpy(&bits[count], &run->key[v], sizeof *bits);
-			run->first[count++] = (uint32_t) v;
-		}
-	run->first_count = count;
-	return status == TY_OK ? ty_sort_keys(run->env, bits, run->first, count) : status;
+	ty_release(run->env, run->queue.key);
+	ty_release(run->env, run->queue.heap);
+	ty_release(run->env, run->queue.bucket);
+	ty_release(run->env, run->queue.chunk);
 }
 
-/* The least current key of the sorted ones and of the heap; false when there is none. */
+/* ---- the least ---- */
+
+/* whether the mesh has the edge, at its cost */
 static bool
-least_key(ty_run *run, ty_edge *least)
+exists(const ty_run *run, ty_edge e)
 {
-	bool found = false;
+	uint32_t first = run->vertex[e.owner].edge, h = first;
 
-	while (run->first_next < run->first_count)
+	if (e.other == TY_NONE || run->mesh.live < 2)
+		return false;
+	do
 	{
-		uint32_t v = run->first[run->first_next];
-
-		if (run->mesh.edge[v] != TY_NONE && !run->rekeyed[v])
-		{
-			*least = key_of(run, v);
-			found = true;
-			break;
-		}
-		run->first_next++;
-	}
-	while (run->heap_count > 0 && !is_current(run, run->heap[0]))
-		pop(run);
-	if (run->heap_count > 0 && (!found || before(run->heap[0], *least)))
-	{
-		*least = run->heap[0];
-		found = true;
-	}
-	return found;
+		if (ty_target(&run->mesh, h) == e.other)
+			return edge_cost(run, e.owner, e.other) == e.cost;
+	} while ((h = ty_next_around(&run->mesh, h)) != first);
+	return false;
 }
 
 ty_status
 ty_queue_least(ty_run *run, ty_edge *least)
 {
-	while (least_key(run, least))
-	{
-		ty_edge now = ty_least_edge(run, least->owner);
-		ty_status status;
+	ty_queue *queue = &run->queue;
+	ty_status status = TY_OK;
+	bool found = true;
 
-		if (!before(*least, now))
+	while (status == TY_OK && found)
+	{
+		if (queue->heap_count == 0)
 		{
-			*least = now;
-			return TY_OK;
+			status = ty_bucket_drain(run, &found);
+			continue;
 		}
-		status = ty_queue_set(run, now); /* the edge has gone or grown: the vertex goes back with what it has */
-		if (status != TY_OK)
-			return status;
+		*least = queue->heap[0];
+		if (!is_current(run, *least))
+			pop(queue);
+		else if (exists(run, *least))
+			return TY_OK;
+		else
+		{
+			pop(queue);
+			status = ty_queue_set(run, ty_least_edge(run, least->owner));
+		}
 	}
 	least->owner = TY_NONE;
-	return TY_OK;
+	return status;
 }

@@ -1,64 +1,20 @@
 /*
  * mesh.c - see mesh.h
  *
- * Three files make the mesh. mesh_build.c builds it; this one changes it; mesh_check.c checks it. A collapse
+ * mesh_build.c builds the mesh; this file changes it, mesh_hole.c takes vertices out; mesh_check.c checks it. A collapse
  * goes one of three ways:
  *
  *   contract  both stars lie inside the hull and stay star-shaped seen from the new place: the two triangles
  *             at the edge vanish, the rest is renamed, flips restore the Delaunay property. Nearly always.
  *   refill    otherwise both ends are removed, their holes are filled with Delaunay triangles, and the new
  *             vertex is inserted.
- *   rebuild   what is left when the mesh changes between a chain and a surface, or a hole is so large that
- *             building anew is cheaper.
+ *   rebuild   what is left when the mesh changes between a chain and a surface.
  *
  * Ghost triangles follow the same rules with orientation in the place of in-circle.
  */
 #include "mesh_internal.h"
 
-/* Filling a hole of d corners takes d^2 tests; this many times the live vertices cost as much as building anew. */
-#define REBUILD_RATIO 32
-
-/* ---- triangles ---- */
-
-static uint32_t
-take_triangle(ty_mesh *mesh)
-{
-	uint32_t t = mesh->free_triangle;
-
-	if (t == TY_NONE)
-		return mesh->used_triangles++;
-	mesh->free_triangle = mesh->triangles[t].adjacent[0];
-	return t;
-}
-
-static void
-give_triangle(ty_mesh *mesh, uint32_t t)
-{
-	mesh->triangles[t].vertex[0] = TY_NONE;
-	mesh->triangles[t].vertex[1] = TY_NONE;
-	mesh->triangles[t].vertex[2] = TY_NONE;
-	mesh->triangles[t].adjacent[0] = mesh->free_triangle;
-	mesh->free_triangle = t;
-}
-
-static void
-set_edge(ty_mesh *mesh, uint32_t v, uint32_t h)
-{
-	if (v != TY_GHOST)
-		mesh->edge[v] = h;
-}
-
-/* names the corners of a triangle and makes it known to them */
-static void
-set_triangle(ty_mesh *mesh, uint32_t t, uint32_t a, uint32_t b, uint32_t c)
-{
-	mesh->triangles[t].vertex[0] = a;
-	mesh->triangles[t].vertex[1] = b;
-	mesh->triangles[t].vertex[2] = c;
-	set_edge(mesh, a, 3 * t);
-	set_edge(mesh, b, 3 * t + 1);
-	set_edge(mesh, c, 3 * t + 2);
-}
+/* ---- flips ---- */
 
 static ty_status
 push(ty_mesh *mesh, uint32_t h)
@@ -76,15 +32,6 @@ push(ty_mesh *mesh, uint32_t h)
 	mesh->stack[mesh->stack_count++] = h;
 	return TY_OK;
 }
-
-static void
-tell_edge(const ty_mesh *mesh, uint32_t a, uint32_t b)
-{
-	if (mesh->edge_made != NULL && a != TY_GHOST && b != TY_GHOST)
-		mesh->edge_made(mesh->edge_context, a, b);
-}
-
-/* ---- flips ---- */
 
 void
 ty_mesh_flip(ty_mesh *mesh, uint32_t h, uint32_t corner[4])
@@ -115,15 +62,14 @@ ty_mesh_violates(const ty_mesh *mesh, uint32_t h)
 	uint32_t g = ty_opposite(mesh, h);
 	uint32_t a = ty_origin(mesh, h), b = ty_origin(mesh, g);
 	uint32_t c = ty_origin(mesh, ty_previous_in_triangle(h)), d = ty_origin(mesh, ty_previous_in_triangle(g));
-	const ty_position *p = mesh->position;
 
 	if (c == TY_GHOST || d == TY_GHOST)
 		return false; /* an edge of the hull */
 	if (a == TY_GHOST)
-		return ty_orientation(p[c], p[b], p[d]) < 0; /* hull c -> b -> d must not turn inwards */
+		return ty_turn(mesh, c, b, d) < 0; /* hull c -> b -> d must not turn inwards */
 	if (b == TY_GHOST)
-		return ty_orientation(p[d], p[a], p[c]) < 0;
-	return ty_in_circle(p[a], p[b], p[c], p[d], a, b, c, d);
+		return ty_turn(mesh, d, a, c) < 0;
+	return ty_circle_holds(mesh, a, b, c, d);
 }
 
 /* Flips the edge and queues the four around it; tells of a new edge that does not end at `fresh`. */
@@ -135,12 +81,12 @@ flip_and_push(ty_mesh *mesh, uint32_t h, uint32_t fresh)
 	ty_status status;
 
 	ty_mesh_flip(mesh, h, corner);
-	set_edge(mesh, corner[0], 3 * t0);
-	set_edge(mesh, corner[1], 3 * t0 + 1);
-	set_edge(mesh, corner[2], 3 * t1 + 1);
-	set_edge(mesh, corner[3], 3 * t1 + 2);
+	ty_set_edge(mesh, corner[0], 3 * t0);
+	ty_set_edge(mesh, corner[1], 3 * t0 + 1);
+	ty_set_edge(mesh, corner[2], 3 * t1 + 1);
+	ty_set_edge(mesh, corner[3], 3 * t1 + 2);
 	if (corner[1] != fresh && corner[3] != fresh)
-		tell_edge(mesh, corner[1], corner[3]);
+		ty_tell_edge(mesh, corner[1], corner[3]);
 	if ((status = push(mesh, 3 * t0)) != TY_OK || (status = push(mesh, 3 * t0 + 2)) != TY_OK ||
 		(status = push(mesh, 3 * t1)) != TY_OK || (status = push(mesh, 3 * t1 + 1)) != TY_OK)
 		return status;
@@ -170,44 +116,65 @@ restore(ty_mesh *mesh, uint32_t fresh)
 /* ---- contraction ---- */
 
 /*
- * Whether the star of v, but for the triangles at the edge v - other, stays counter-clockwise when v moves to
- * `to`, and has no ghosts. Adds to *turns how often its outline crosses the level of `to` upwards.
+ * The stars of both ends of h, without the two triangles at h: together the star of the vertex that they merge to.
+ * ring[i] is the half-edge from an end to the i-th corner, in the triangle of the corners i and i + 1,
+ * counter-clockwise. Read once, so that all tests run over an array instead of from triangle to triangle.
  */
-static bool
-star_allows(const ty_mesh *mesh, uint32_t v, uint32_t other, ty_position to, int *turns)
+static ty_status
+read_ring(ty_mesh *mesh, uint32_t h, bool *has_ghost)
 {
-	uint32_t first = mesh->edge[v], h = first;
+	uint32_t side[2] = {h, ty_opposite(mesh, h)};
 
-	do
+	mesh->ring_count = 0;
+	*has_ghost = false;
+	for (int i = 0; i < 2; i++)
 	{
-		uint32_t b = ty_target(mesh, h), c = ty_origin(mesh, ty_previous_in_triangle(h));
+		uint32_t spoke = ty_next_around(mesh, side[i]), next;
 
-		if (b == TY_GHOST || c == TY_GHOST)
-			return false;
-		if (b != other && c != other)
+		/* the last spoke's triangle is at the edge */
+		for (; spoke != side[i] && (next = ty_next_around(mesh, spoke)) != side[i]; spoke = next)
 		{
-			ty_position pb = mesh->position[b], pc = mesh->position[c];
+			if (mesh->ring_count == mesh->ring_capacity)
+			{
+				size_t capacity = 2 * mesh->ring_capacity;
+				uint32_t *ring = ty_reallocate_array(mesh->env, mesh->ring, capacity, sizeof *ring);
 
-			if (ty_orientation(to, pb, pc) <= 0)
-				return false;
-			*turns += pb.y < to.y && pc.y >= to.y;
+				if (ring == NULL)
+					return TY_NO_MEMORY;
+				mesh->ring = ring;
+				mesh->ring_capacity = capacity;
+			}
+			mesh->ring[mesh->ring_count++] = spoke;
+			*has_ghost |= ty_target(mesh, spoke) == TY_GHOST;
 		}
-	} while ((h = ty_next_around(mesh, h)) != first);
-	return true;
+	}
+	return TY_OK;
 }
 
-/* the half-edge from s to t; TY_NONE when there is none */
+/* the i-th corner of the ring, counted around it */
 static uint32_t
-find_edge(const ty_mesh *mesh, uint32_t s, uint32_t t)
+ring_corner(const ty_mesh *mesh, size_t i)
 {
-	uint32_t first = mesh->edge[s], h = first;
+	return ty_target(mesh, mesh->ring[i < mesh->ring_count ? i : i - mesh->ring_count]);
+}
 
-	do
+/* Whether the ring, which has no ghost, is star-shaped seen from `to`: the ends can be merged by renaming. */
+static bool
+ring_allows(const ty_mesh *mesh, ty_position to)
+{
+	int turns = 0; /* how often it crosses the level of `to` upwards: it must go round exactly once */
+	ty_position b = mesh->vertex[ring_corner(mesh, 0)].position;
+
+	for (size_t i = 0; i < mesh->ring_count; i++)
 	{
-		if (ty_target(mesh, h) == t)
-			return h;
-	} while ((h = ty_next_around(mesh, h)) != first);
-	return TY_NONE;
+		ty_position c = mesh->vertex[ring_corner(mesh, i + 1)].position;
+
+		if (ty_orientation(to, b, c) <= 0)
+			return false;
+		turns += b.y < to.y && c.y >= to.y;
+		b = c;
+	}
+	return turns == 1;
 }
 
 /* Closes the triangle of h (from one merged end to the other) up: its two other edges become one. */
@@ -218,222 +185,47 @@ close_triangle(ty_mesh *mesh, uint32_t h)
 	uint32_t right = ty_opposite(mesh, ty_previous_in_triangle(h)); /* origin of h -> apex */
 
 	ty_mesh_bond(mesh, left, right);
-	set_edge(mesh, ty_origin(mesh, left), left);
-	set_edge(mesh, ty_origin(mesh, right), right);
-	give_triangle(mesh, h / 3);
+	ty_set_edge(mesh, ty_origin(mesh, left), left);
+	ty_set_edge(mesh, ty_origin(mesh, right), right);
+	ty_give_triangle(mesh, h / 3);
 }
 
-/* Contracts the half-edge h, whose ends are kept and gone; afterwards kept stands at `to`. Topology only. */
+/* Contracts the half-edge h, whose ends are kept and gone and have the ring; kept comes to `to`. Topology only. */
 static void
 contract(ty_mesh *mesh, uint32_t h, uint32_t kept, uint32_t gone, ty_position to)
 {
 	uint32_t g = ty_opposite(mesh, h);
-	uint32_t first = mesh->edge[gone], around = first;
 
-	do
-		mesh->triangles[around / 3].vertex[around % 3] = kept;
-	while ((around = ty_next_around(mesh, around)) != first);
+	for (size_t i = 0; i < mesh->ring_count; i++)
+		mesh->triangles[mesh->ring[i] / 3].vertex[mesh->ring[i] % 3] = kept;
 	close_triangle(mesh, h);
 	close_triangle(mesh, g);
-	mesh->edge[gone] = TY_NONE;
-	mesh->position[kept] = to;
+	mesh->vertex[gone].edge = TY_NONE;
+	mesh->vertex[kept].position = to;
 	mesh->live--;
 }
 
-/* queues the spokes and the outline of v's star */
+/* Queues the spokes and outer edges of the ring of v that are not Delaunay. */
 static ty_status
-push_star(ty_mesh *mesh, uint32_t v)
+push_ring(ty_mesh *mesh, uint32_t v)
 {
-	uint32_t first = mesh->edge[v], h = first;
-	ty_status status;
+	uint32_t a = ring_corner(mesh, mesh->ring_count - 1), b = ring_corner(mesh, 0);
+	ty_status status = TY_OK;
 
-	do
+	for (size_t i = 0; i < mesh->ring_count && status == TY_OK; i++)
 	{
-		if ((status = push(mesh, ty_next_in_triangle(h))) != TY_OK || (status = push(mesh, h)) != TY_OK)
-			return status;
-	} while ((h = ty_next_around(mesh, h)) != first);
-	return TY_OK;
-}
+		uint32_t c = ring_corner(mesh, i + 1);
+		uint32_t edge = ty_next_in_triangle(mesh->ring[i]);
+		uint32_t beyond = ty_origin(mesh, ty_previous_in_triangle(ty_opposite(mesh, edge)));
 
-/* ---- removal ---- */
-
-/* A corner of a hole, and the edge from it to the next corner as seen from outside the hole. */
-typedef struct corner
-{
-	uint32_t vertex;
-	uint32_t outside; /* half-edge from the next corner to this one */
-	uint32_t next;
-} corner;
-
-/* The hole that a removed vertex leaves, split into smaller holes as triangles fill it. */
-typedef struct hole
-{
-	corner *corners;
-	size_t count;
-	uint32_t *open; /* first corners of the holes still to fill */
-	size_t open_count;
-} hole;
-
-/* The stars of most vertices have 6 corners; room for these needs no allocation. */
-#define HOLE_INLINE 24
-
-/* Takes v's star out of the mesh and lists the corners of the hole, counter-clockwise. */
-static void
-open_hole(ty_mesh *mesh, uint32_t v, hole *hole)
-{
-	uint32_t first = mesh->edge[v], h = first;
-
-	hole->count = 0;
-	do
-	{
-		uint32_t outside = ty_opposite(mesh, ty_next_in_triangle(h));
-
-		hole->corners[hole->count] = (corner){ty_target(mesh, h), outside, (uint32_t) hole->count + 1};
-		hole->count++;
-		set_edge(mesh, ty_origin(mesh, outside), outside); /* the next corner holds on to the mesh outside */
-	} while ((h = ty_next_around(mesh, h)) != first);
-	hole->corners[hole->count - 1].next = 0;
-	for (size_t i = 0; i < hole->count; i++)
-		give_triangle(mesh, ty_opposite(mesh, hole->corners[i].outside) / 3);
-	mesh->edge[v] = TY_NONE;
-	mesh->live--;
-}
-
-/* The corner whose triangle with a -> b belongs to the Delaunay mesh: no other corner lies inside its circle. */
-static uint32_t
-delaunay_apex(const ty_mesh *mesh, const corner *corners, uint32_t a, uint32_t b)
-{
-	uint32_t va = corners[a].vertex, vb = corners[b].vertex;
-	uint32_t apex = TY_NONE, ghost = TY_NONE;
-	const ty_position *p = mesh->position;
-
-	for (uint32_t i = corners[b].next; i != a; i = corners[i].next)
-	{
-		uint32_t v = corners[i].vertex;
-
-		if (v == TY_GHOST)
-			ghost = i;
-		else if (ty_orientation(p[va], p[vb], p[v]) > 0 &&
-				 (apex == TY_NONE ||
-				  ty_in_circle(p[va], p[vb], p[corners[apex].vertex], p[v], va, vb, corners[apex].vertex, v)))
-			apex = i;
+		if (ty_circle_holds(mesh, v, a, b, c))
+			status = push(mesh, mesh->ring[i]);
+		if (status == TY_OK && beyond != TY_GHOST && ty_circle_holds(mesh, v, b, c, beyond))
+			status = push(mesh, edge);
+		a = b;
+		b = c;
 	}
-	return apex != TY_NONE ? apex : ghost;
-}
-
-/* the first edge of the hole from a corner on whose two ends are real; TY_NONE if there is none */
-static uint32_t
-real_edge(const corner *corners, uint32_t start)
-{
-	uint32_t a = start;
-
-	do
-	{
-		if (corners[a].vertex != TY_GHOST && corners[corners[a].next].vertex != TY_GHOST)
-			return a;
-	} while ((a = corners[a].next) != start);
-	return TY_NONE;
-}
-
-/* Puts the triangle a, b, apex into the hole, which leaves the holes b .. apex and apex .. a. */
-static void
-split_hole(ty_mesh *mesh, hole *hole, uint32_t a, uint32_t b, uint32_t apex)
-{
-	corner *corners = hole->corners;
-	uint32_t va = corners[a].vertex, vb = corners[b].vertex, vc = corners[apex].vertex;
-	uint32_t t = take_triangle(mesh);
-	uint32_t copy = (uint32_t) hole->count++; /* of the apex, which is a corner of both holes */
-	uint32_t last = b;
-
-	set_triangle(mesh, t, va, vb, vc);
-	ty_mesh_bond(mesh, 3 * t, corners[a].outside);
-	while (corners[last].next != apex)
-		last = corners[last].next;
-	if (last != b)
-		tell_edge(mesh, vb, vc);
-	if (corners[apex].next != a)
-		tell_edge(mesh, vc, va);
-	corners[copy] = (corner){vc, 3 * t + 1, b};
-	corners[last].next = copy;
-	corners[a].next = apex;
-	corners[a].outside = 3 * t + 2;
-	hole->open[hole->open_count++] = b;
-	hole->open[hole->open_count++] = a;
-}
-
-/* Fills the hole with Delaunay triangles. */
-static ty_status
-fill_hole(ty_mesh *mesh, hole *hole)
-{
-	corner *corners = hole->corners;
-
-	hole->open[0] = 0;
-	hole->open_count = 1;
-	while (hole->open_count > 0)
-	{
-		uint32_t start = hole->open[--hole->open_count];
-		uint32_t second = corners[start].next, a, apex;
-
-		if (corners[second].next == start)
-		{
-			ty_mesh_bond(mesh, corners[start].outside, corners[second].outside);
-			continue;
-		}
-		a = real_edge(corners, start);
-		apex = a == TY_NONE ? TY_NONE : delaunay_apex(mesh, corners, a, corners[a].next);
-		if (apex == TY_NONE)
-			return TY_BROKEN;
-		if (hole->count > 2 * HOLE_INLINE && ty_interrupted(mesh->env))
-			return TY_INTERRUPTED; /* a hub's hole may take 0.1 s to fill */
-		split_hole(mesh, hole, a, corners[a].next, apex);
-		mesh->work += hole->count;
-	}
-	return TY_OK;
-}
-
-static size_t
-degree(const ty_mesh *mesh, uint32_t v)
-{
-	uint32_t first = mesh->edge[v], h = first;
-	size_t n = 0;
-
-	do
-		n++;
-	while ((h = ty_next_around(mesh, h)) != first);
-	return n;
-}
-
-/* whether filling the hole that v would leave costs less than building the mesh anew */
-static bool
-worth_filling(const ty_mesh *mesh, size_t degree)
-{
-	return degree <= HOLE_INLINE || degree * degree / REBUILD_RATIO <= mesh->live;
-}
-
-/* Takes v, of the given degree, out of a mesh that is not a chain. */
-static ty_status
-remove_vertex(ty_mesh *mesh, uint32_t v, size_t degree)
-{
-	corner corners[2 * HOLE_INLINE];
-	uint32_t open[HOLE_INLINE];
-	hole hole = {corners, 0, open, 0};
-	ty_status status = TY_NO_MEMORY;
-
-	if (degree > HOLE_INLINE)
-	{
-		hole.corners = ty_allocate_array(mesh->env, 2 * degree, sizeof *hole.corners);
-		hole.open = ty_allocate_array(mesh->env, degree, sizeof *hole.open);
-	}
-	if (hole.corners != NULL && hole.open != NULL)
-	{
-		open_hole(mesh, v, &hole);
-		status = fill_hole(mesh, &hole);
-	}
-	if (degree > HOLE_INLINE)
-	{
-		ty_release(mesh->env, hole.corners);
-		ty_release(mesh->env, hole.open);
-	}
+	mesh->work += 2 * mesh->ring_count;
 	return status;
 }
 
@@ -454,7 +246,7 @@ triangle_holds(const ty_mesh *mesh, uint32_t t, ty_position p, location *at, uin
 	*at = (location){3 * t, false, TY_NONE};
 	for (uint32_t h = 3 * t; h < 3 * t + 3; h++)
 	{
-		ty_position a = mesh->position[ty_origin(mesh, h)], b = mesh->position[ty_target(mesh, h)];
+		ty_position a = mesh->vertex[ty_origin(mesh, h)].position, b = mesh->vertex[ty_target(mesh, h)].position;
 		int64_t side = ty_orientation(a, b, p);
 
 		if (side < 0)
@@ -474,7 +266,7 @@ triangle_holds(const ty_mesh *mesh, uint32_t t, ty_position p, location *at, uin
 static uint32_t
 real_triangle(const ty_mesh *mesh, uint32_t v)
 {
-	uint32_t first = mesh->edge[v], h = first;
+	uint32_t first = mesh->vertex[v].edge, h = first;
 
 	do
 	{
@@ -507,15 +299,15 @@ locate(const ty_mesh *mesh, uint32_t t, ty_position p)
 static ty_status
 split_triangle(ty_mesh *mesh, uint32_t h, uint32_t v)
 {
-	uint32_t t0 = h / 3, t1 = take_triangle(mesh), t2 = take_triangle(mesh);
+	uint32_t t0 = h / 3, t1 = ty_take_triangle(mesh), t2 = ty_take_triangle(mesh);
 	uint32_t a = mesh->triangles[t0].vertex[0], b = mesh->triangles[t0].vertex[1], c = mesh->triangles[t0].vertex[2];
 	uint32_t ab = mesh->triangles[t0].adjacent[0], bc = mesh->triangles[t0].adjacent[1];
 	uint32_t ca = mesh->triangles[t0].adjacent[2];
 	ty_status status;
 
-	set_triangle(mesh, t0, a, b, v);
-	set_triangle(mesh, t1, b, c, v);
-	set_triangle(mesh, t2, c, a, v);
+	ty_set_triangle(mesh, t0, a, b, v);
+	ty_set_triangle(mesh, t1, b, c, v);
+	ty_set_triangle(mesh, t2, c, a, v);
 	ty_mesh_bond(mesh, 3 * t0, ab);
 	ty_mesh_bond(mesh, 3 * t1, bc);
 	ty_mesh_bond(mesh, 3 * t2, ca);
@@ -534,7 +326,7 @@ insert_vertex(ty_mesh *mesh, uint32_t v, ty_position to, location at)
 	uint32_t beyond = ty_opposite(mesh, at.h);
 	ty_status status;
 
-	mesh->position[v] = to;
+	mesh->vertex[v].position = to;
 	mesh->live++;
 	status = split_triangle(mesh, at.h, v);
 	/* on an edge the split leaves a flat triangle there: flipping that edge makes two good ones */
@@ -559,7 +351,7 @@ tell_all_edges(const ty_mesh *mesh)
 {
 	for (uint32_t h = 0; h < 3 * mesh->used_triangles; h++)
 		if (ty_origin(mesh, h) < ty_target(mesh, h))
-			tell_edge(mesh, ty_origin(mesh, h), ty_target(mesh, h));
+			ty_tell_edge(mesh, ty_origin(mesh, h), ty_target(mesh, h));
 }
 
 /* lists the vertices of the mesh with their keys; returns how many */
@@ -569,10 +361,10 @@ list_live(const ty_mesh *mesh, uint32_t *list, uint64_t *keys)
 	size_t n = 0;
 
 	for (size_t v = 0; v < mesh->vertices; v++)
-		if (mesh->edge[v] != TY_NONE)
+		if (mesh->vertex[v].edge != TY_NONE)
 		{
 			list[n] = (uint32_t) v;
-			keys[n++] = ty_hilbert_key(mesh->position[v]);
+			keys[n++] = ty_hilbert_key(mesh->vertex[v].position);
 		}
 	return n;
 }
@@ -609,15 +401,15 @@ static ty_status
 rebuild(ty_mesh *mesh, const change *c, uint32_t *met)
 {
 	for (int i = 0; i < c->count; i++)
-		mesh->edge[c->leaving[i]] = TY_NONE;
+		mesh->vertex[c->leaving[i]].edge = TY_NONE;
 	*met = TY_NONE;
 	for (size_t v = 0; v < mesh->vertices; v++)
-		if (mesh->edge[v] != TY_NONE && ty_same_position(mesh->position[v], c->to))
+		if (mesh->vertex[v].edge != TY_NONE && ty_same_position(mesh->vertex[v].position, c->to))
 			*met = (uint32_t) v;
 	if (*met == TY_NONE)
 	{
-		mesh->position[c->fresh] = c->to;
-		mesh->edge[c->fresh] = 0;
+		mesh->vertex[c->fresh].position = c->to;
+		mesh->vertex[c->fresh].edge = 0;
 	}
 	return rebuild_live(mesh);
 }
@@ -628,7 +420,7 @@ staying_neighbour(const ty_mesh *mesh, const change *c)
 {
 	for (int i = 0; i < c->count; i++)
 	{
-		uint32_t first = mesh->edge[c->leaving[i]], h = first;
+		uint32_t first = mesh->vertex[c->leaving[i]].edge, h = first;
 
 		do
 		{
@@ -653,11 +445,10 @@ refill(ty_mesh *mesh, const change *c, uint32_t *met)
 	{
 		uint32_t v = c->leaving[i];
 		ty_status status;
-		size_t d;
 
-		if (real_triangle(mesh, v) == TY_NONE || !worth_filling(mesh, d = degree(mesh, v)))
+		if (real_triangle(mesh, v) == TY_NONE)
 			return rebuild(mesh, c, met);
-		status = remove_vertex(mesh, v, d);
+		status = ty_mesh_remove(mesh, v);
 		if (status != TY_OK)
 			return status;
 	}
@@ -669,35 +460,29 @@ refill(ty_mesh *mesh, const change *c, uint32_t *met)
 	return at.vertex == TY_NONE ? insert_vertex(mesh, c->fresh, c->to, at) : TY_OK;
 }
 
-/* Whether both stars can be merged by renaming, seen from `to`: see star_allows. */
-static bool
-can_contract(const ty_mesh *mesh, uint32_t s, uint32_t t, ty_position to)
-{
-	int turns = 0; /* the merged star's outline must go round `to` exactly once */
-
-	return star_allows(mesh, s, t, to, &turns) && star_allows(mesh, t, s, to, &turns) && turns == 1;
-}
-
 ty_status
 ty_mesh_collapse(ty_mesh *mesh, uint32_t s, uint32_t t, ty_position to, uint32_t *met)
 {
 	uint32_t kept = s < t ? s : t, gone = s < t ? t : s;
+	uint32_t h = ty_mesh_find_edge(mesh, kept, gone);
 	change c = {{kept, gone}, 2, kept, to};
-	bool chain;
-	ty_status status;
+	bool has_ghost, chain;
+	ty_status status = read_ring(mesh, h, &has_ghost);
 
 	*met = TY_NONE;
+	if (status != TY_OK)
+		return status;
 	if (mesh->live == 2)
 		return rebuild(mesh, &c, met);
-	chain = real_triangle(mesh, kept) == TY_NONE;
-	if (chain && ty_orientation(mesh->position[s], mesh->position[t], to) != 0)
+	chain = has_ghost && real_triangle(mesh, kept) == TY_NONE;
+	if (chain && ty_orientation(mesh->vertex[s].position, mesh->vertex[t].position, to) != 0)
 		return rebuild(mesh, &c, met); /* rounding has left the line */
-	if (!chain && !can_contract(mesh, kept, gone, to))
+	if (!chain && (has_ghost || !ring_allows(mesh, to)))
 		return refill(mesh, &c, met);
-	contract(mesh, find_edge(mesh, kept, gone), kept, gone, to);
+	contract(mesh, h, kept, gone, to);
 	if (chain)
 		return TY_OK;
-	status = push_star(mesh, kept); /* whose corners are counted as work when they are popped */
+	status = push_ring(mesh, kept);
 	return status == TY_OK ? restore(mesh, kept) : status;
 }
 
@@ -715,10 +500,10 @@ ty_mesh_collapse_many(ty_mesh *mesh, const uint32_t *kept, const uint32_t *gone,
 {
 	for (size_t i = 0; i < n; i++)
 	{
-		ty_position former = mesh->position[kept[i]];
+		ty_position former = mesh->vertex[kept[i]].position;
 
-		mesh->position[kept[i]] = place[i];
-		mesh->edge[gone[i]] = TY_NONE;
+		mesh->vertex[kept[i]].position = place[i];
+		mesh->vertex[gone[i]].edge = TY_NONE;
 		place[i] = former;
 	}
 	return rebuild_live(mesh);
@@ -729,8 +514,8 @@ ty_mesh_part_many(ty_mesh *mesh, const uint32_t *kept, const uint32_t *gone, con
 {
 	for (size_t i = 0; i < n; i++)
 	{
-		mesh->position[kept[i]] = place[i];
-		mesh->edge[gone[i]] = 0;
+		mesh->vertex[kept[i]].position = place[i];
+		mesh->vertex[gone[i]].edge = 0;
 	}
 	mesh->live += n;
 	return rebuild_live(mesh);

@@ -25,18 +25,27 @@ typedef struct ty_triangle
 	uint32_t adjacent[3]; /* the opposite half-edge of vertex[i] -> vertex[i + 1] */
 } ty_triangle;
 
+/* What mesh and collapse look at together, side by side in memory: a collapse waits for memory, not for arithmetic. */
+typedef struct ty_vertex
+{
+	ty_position position;
+	uint32_t edge; /* a half-edge that starts there; TY_NONE: not in the mesh; 0: the only vertex */
+	uint32_t size; /* r, how many buildings it represents: the collapse's, the mesh leaves it alone */
+} ty_vertex;
+
 typedef struct ty_mesh
 {
 	const ty_environment *env;
-	ty_position *position;	/* [vertices] borrowed from the caller, who may read it; the mesh moves entries */
-	size_t vertices;		/* length of position */
+	ty_vertex *vertex;		/* [vertices] borrowed from the caller; the mesh changes positions and edges */
+	size_t vertices;		/* length of vertex */
 	size_t live;			/* vertices in the mesh */
 	ty_triangle *triangles; /* [2 * vertices - 2] */
-	uint32_t *edge;			/* [vertices] a half-edge that starts there; TY_NONE: not in the mesh; 0: the only vertex */
 	uint32_t used_triangles; /* triangles from here on have never been used */
 	uint32_t free_triangle;	 /* list of those given back, linked by adjacent[0], vertices TY_NONE */
 	uint32_t *stack;		 /* half-edges to examine */
 	size_t stack_count, stack_capacity;
+	uint32_t *ring; /* half-edges of a star, see mesh.c */
+	size_t ring_count, ring_capacity;
 	uint64_t work; /* steps of all changes: corners of stars and holes, flips, vertices built anew */
 	/* may be NULL; told of every edge that a change makes between two old vertices (and of some that it unmakes) */
 	void (*edge_made)(void *context, uint32_t a, uint32_t b);
@@ -46,10 +55,10 @@ typedef struct ty_mesh
 /*
  * Builds the mesh over the given vertices by divide and conquer along the Hilbert order (after Guibas and
  * Stolfi 1985). keys[i] is the Hilbert key of vertex list[i], ascending and without repeats; list NULL means
- * 0 .. n-1. position holds `vertices` entries and must outlive the mesh. On any status but TY_OK nothing is
+ * 0 .. n-1. vertex holds `vertices` entries, positions filled in, and must outlive the mesh. On any status but TY_OK nothing is
  * to be freed.
  */
-ty_status ty_mesh_build(const ty_environment *env, ty_position *position, size_t vertices, const uint32_t *list,
+ty_status ty_mesh_build(const ty_environment *env, ty_vertex *vertex, size_t vertices, const uint32_t *list,
 						const uint64_t *keys, size_t n, ty_mesh *mesh);
 void ty_mesh_free(ty_mesh *mesh);
 
@@ -73,7 +82,7 @@ ty_status ty_mesh_collapse_many(ty_mesh *mesh, const uint32_t *kept, const uint3
 ty_status ty_mesh_part_many(ty_mesh *mesh, const uint32_t *kept, const uint32_t *gone, const ty_position *place,
 							size_t n);
 
-/* Walk over the neighbours of v: h = mesh->edge[v]; do { ... } while ((h = ty_next_around(mesh, h)) != first) */
+/* Walk over the neighbours of v: h = mesh->vertex[v].edge; do { ... } while ((h = ty_next_around(mesh, h)) != first) */
 static inline uint32_t
 ty_next_in_triangle(uint32_t h)
 {

@@ -29,7 +29,6 @@ typedef struct part
 typedef struct builder
 {
 	ty_mesh *mesh;
-	const ty_position *position;
 	const uint32_t *list;
 	const uint64_t *keys;
 } builder;
@@ -60,13 +59,6 @@ counter_clockwise(const ty_mesh *mesh, uint32_t h)
 	return ty_opposite(mesh, ty_next_in_triangle(h));
 }
 
-/* where a hull half-edge v -> ghost starts */
-static ty_position
-place(const builder *b, uint32_t h)
-{
-	return b->position[ty_origin(b->mesh, h)];
-}
-
 /*
  * Moves from l and r, corners that see each other, down to the lower common tangent. left and right are their
  * half-edges to the ghost; TY_NONE for a single vertex.
@@ -74,7 +66,7 @@ place(const builder *b, uint32_t h)
 static void
 lower_tangent(const builder *b, uint32_t *l, uint32_t *r, uint32_t *left, uint32_t *right)
 {
-	const ty_position *p = b->position;
+	const ty_mesh *mesh = b->mesh;
 	bool moved = true;
 
 	while (moved)
@@ -82,16 +74,16 @@ lower_tangent(const builder *b, uint32_t *l, uint32_t *r, uint32_t *left, uint32
 		uint32_t h;
 
 		moved = false;
-		while (*left != TY_NONE && ty_orientation(p[*l], p[*r], place(b, h = clockwise(b->mesh, *left))) < 0)
+		while (*left != TY_NONE && ty_turn(mesh, *l, *r, ty_origin(mesh, h = clockwise(mesh, *left))) < 0)
 		{
 			*left = h;
-			*l = ty_origin(b->mesh, h);
+			*l = ty_origin(mesh, h);
 			moved = true;
 		}
-		while (*right != TY_NONE && ty_orientation(p[*l], p[*r], place(b, h = counter_clockwise(b->mesh, *right))) < 0)
+		while (*right != TY_NONE && ty_turn(mesh, *l, *r, ty_origin(mesh, h = counter_clockwise(mesh, *right))) < 0)
 		{
 			*right = h;
-			*r = ty_origin(b->mesh, h);
+			*r = ty_origin(mesh, h);
 			moved = true;
 		}
 	}
@@ -112,13 +104,12 @@ static uint32_t
 left_candidate(const builder *b, seam *s)
 {
 	ty_mesh *mesh = b->mesh;
-	const ty_position *p = b->position;
 	uint32_t a;
 
 	if (s->left_ghost == TY_NONE)
 		return TY_NONE;
 	a = ty_origin(mesh, ty_previous_in_triangle(s->left_ghost));
-	if (ty_orientation(p[s->l], p[s->r], p[a]) <= 0)
+	if (ty_turn(mesh, s->l, s->r, a) <= 0)
 		return TY_NONE;
 	for (;;)
 	{
@@ -126,7 +117,7 @@ left_candidate(const builder *b, seam *s)
 		uint32_t apex = ty_origin(mesh, ty_previous_in_triangle(h));
 		uint32_t corner[4];
 
-		if (apex == TY_GHOST || !ty_in_circle(p[s->l], p[s->r], p[a], p[apex], s->l, s->r, a, apex))
+		if (apex == TY_GHOST || !ty_circle_holds(mesh, s->l, s->r, a, apex))
 			return a;
 		ty_mesh_flip(mesh, h, corner);
 		s->left_ghost = 3 * (h / 3); /* l -> ghost */
@@ -138,13 +129,12 @@ static uint32_t
 right_candidate(const builder *b, seam *s)
 {
 	ty_mesh *mesh = b->mesh;
-	const ty_position *p = b->position;
 	uint32_t c;
 
 	if (s->right_ghost == TY_NONE)
 		return TY_NONE;
 	c = ty_origin(mesh, ty_previous_in_triangle(s->right_ghost));
-	if (ty_orientation(p[s->l], p[s->r], p[c]) <= 0)
+	if (ty_turn(mesh, s->l, s->r, c) <= 0)
 		return TY_NONE;
 	for (;;)
 	{
@@ -153,7 +143,7 @@ right_candidate(const builder *b, seam *s)
 		uint32_t g = ty_opposite(mesh, h);
 		uint32_t corner[4];
 
-		if (apex == TY_GHOST || !ty_in_circle(p[s->l], p[s->r], p[c], p[apex], s->l, s->r, c, apex))
+		if (apex == TY_GHOST || !ty_circle_holds(mesh, s->l, s->r, c, apex))
 			return c;
 		ty_mesh_flip(mesh, h, corner);
 		s->right_ghost = 3 * (g / 3); /* ghost -> r */
@@ -193,7 +183,7 @@ close_right(ty_mesh *mesh, seam *s, uint32_t c)
 static ty_status
 sew(const builder *b, seam *s)
 {
-	const ty_position *p = b->position;
+	ty_mesh *mesh = b->mesh;
 
 	for (size_t steps = 1;; steps++)
 	{
@@ -202,11 +192,11 @@ sew(const builder *b, seam *s)
 
 		if (a == TY_NONE && c == TY_NONE)
 			return TY_OK;
-		if (c == TY_NONE || (a != TY_NONE && !ty_in_circle(p[s->l], p[s->r], p[a], p[c], s->l, s->r, a, c)))
-			close_left(b->mesh, s, a);
+		if (c == TY_NONE || (a != TY_NONE && !ty_circle_holds(mesh, s->l, s->r, a, c)))
+			close_left(mesh, s, a);
 		else
-			close_right(b->mesh, s, c);
-		if (steps % POLL_RANGE == 0 && ty_interrupted(b->mesh->env))
+			close_right(mesh, s, c);
+		if (steps % POLL_RANGE == 0 && ty_interrupted(mesh->env))
 			return TY_INTERRUPTED;
 	}
 }
@@ -217,8 +207,8 @@ join(const builder *b, const part *left, const part *right, uint32_t l, uint32_t
 {
 	ty_mesh *mesh = b->mesh;
 	uint32_t bottom = 3 * t;
-	uint32_t left_hull = left->single ? TY_NONE : mesh->edge[l];
-	uint32_t right_hull = right->single ? TY_NONE : mesh->edge[r];
+	uint32_t left_hull = left->single ? TY_NONE : mesh->vertex[l].edge;
+	uint32_t right_hull = right->single ? TY_NONE : mesh->vertex[r].edge;
 	seam s;
 	ty_status status;
 
@@ -234,12 +224,12 @@ join(const builder *b, const part *left, const part *right, uint32_t l, uint32_t
 	ty_mesh_bond(mesh, bottom + 2, right->single ? s.top + 1 : right_hull);
 	if (!right->single)
 		ty_mesh_bond(mesh, s.right_ghost, s.top + 1);
-	mesh->edge[l] = bottom + 1;
+	mesh->vertex[l].edge = bottom + 1;
 	status = sew(b, &s);
 	mesh->triangles[t + 1].vertex[0] = s.l;
 	mesh->triangles[t + 1].vertex[1] = s.r;
 	ty_mesh_bond(mesh, s.top, s.base);
-	mesh->edge[s.r] = s.top + 1;
+	mesh->vertex[s.r].edge = s.top + 1;
 	return status;
 }
 
@@ -251,18 +241,18 @@ less(int64_t a, int64_t b, int64_t second_a, int64_t second_b)
 }
 
 static part
-unite(const ty_position *p, const part *a, const part *b)
+unite(const ty_vertex *p, const part *a, const part *b)
 {
 	part u = *a;
 
 	u.single = false;
-	if (less(p[b->left].x, p[a->left].x, p[b->left].y, p[a->left].y))
+	if (less(p[b->left].position.x, p[a->left].position.x, p[b->left].position.y, p[a->left].position.y))
 		u.left = b->left;
-	if (less(-p[b->right].x, -p[a->right].x, p[b->right].y, p[a->right].y))
+	if (less(-p[b->right].position.x, -p[a->right].position.x, p[b->right].position.y, p[a->right].position.y))
 		u.right = b->right;
-	if (less(p[b->bottom].y, p[a->bottom].y, -p[b->bottom].x, -p[a->bottom].x))
+	if (less(p[b->bottom].position.y, p[a->bottom].position.y, -p[b->bottom].position.x, -p[a->bottom].position.x))
 		u.bottom = b->bottom;
-	if (less(-p[b->top].y, -p[a->top].y, -p[b->top].x, -p[a->top].x))
+	if (less(-p[b->top].position.y, -p[a->top].position.y, -p[b->top].position.x, -p[a->top].position.x))
 		u.top = b->top;
 	return u;
 }
@@ -290,7 +280,7 @@ split_point(const uint64_t *keys, size_t low, size_t high)
 static ty_status
 build(const builder *b, size_t low, size_t high, part *result)
 {
-	const ty_position *p = b->position;
+	const ty_vertex *p = b->mesh->vertex;
 	part first, second;
 	size_t middle;
 	uint32_t t;
@@ -310,11 +300,11 @@ build(const builder *b, size_t low, size_t high, part *result)
 		return TY_INTERRUPTED;
 	t = (uint32_t) (2 * middle - 2);
 	/* seen so that the separating line is upright: for a level one the plane is turned by 90 degrees */
-	if (p[first.right].x < p[second.left].x)
+	if (p[first.right].position.x < p[second.left].position.x)
 		status = join(b, &first, &second, first.right, second.left, t);
-	else if (p[second.right].x < p[first.left].x)
+	else if (p[second.right].position.x < p[first.left].position.x)
 		status = join(b, &second, &first, second.right, first.left, t);
-	else if (p[first.top].y < p[second.bottom].y)
+	else if (p[first.top].position.y < p[second.bottom].position.y)
 		status = join(b, &first, &second, first.top, second.bottom, t);
 	else
 		status = join(b, &second, &first, second.top, first.bottom, t);
@@ -332,14 +322,14 @@ index_edges(ty_mesh *mesh)
 			uint32_t v = mesh->triangles[t].vertex[i];
 
 			if (v != TY_GHOST)
-				mesh->edge[v] = 3 * t + i;
+				mesh->vertex[v].edge = 3 * t + i;
 		}
 }
 
 ty_status
 ty_mesh_triangulate(ty_mesh *mesh, const uint32_t *list, const uint64_t *keys, size_t n)
 {
-	builder b = {mesh, mesh->position, list, keys};
+	builder b = {mesh, list, keys};
 	part whole;
 	ty_status status = build(&b, 0, n, &whole);
 
@@ -348,28 +338,28 @@ ty_mesh_triangulate(ty_mesh *mesh, const uint32_t *list, const uint64_t *keys, s
 	mesh->free_triangle = TY_NONE;
 	mesh->stack_count = 0;
 	if (n == 1)
-		mesh->edge[vertex_at(&b, 0)] = 0;
+		mesh->vertex[vertex_at(&b, 0)].edge = 0;
 	else if (status == TY_OK)
 		index_edges(mesh);
 	return status;
 }
 
 ty_status
-ty_mesh_build(const ty_environment *env, ty_position *position, size_t vertices, const uint32_t *list,
-			  const uint64_t *keys, size_t n, ty_mesh *mesh)
+ty_mesh_build(const ty_environment *env, ty_vertex *vertex, size_t vertices, const uint32_t *list, const uint64_t *keys,
+			  size_t n, ty_mesh *mesh)
 {
 	ty_status status = TY_NO_MEMORY;
 
-	*mesh = (ty_mesh){.env = env, .position = position, .vertices = vertices, .stack_capacity = 64};
+	*mesh = (ty_mesh){.env = env, .vertex = vertex, .vertices = vertices, .stack_capacity = 64, .ring_capacity = 64};
 	if (vertices > TY_MAX_VERTICES)
 		return TY_TOO_MANY;
 	mesh->triangles = ty_allocate_array(env, 2 * n - 2, sizeof *mesh->triangles);
-	mesh->edge = ty_allocate_array(env, vertices, sizeof *mesh->edge);
 	mesh->stack = ty_allocate_array(env, mesh->stack_capacity, sizeof *mesh->stack);
-	if (mesh->triangles != NULL && mesh->edge != NULL && mesh->stack != NULL)
+	mesh->ring = ty_allocate_array(env, mesh->ring_capacity, sizeof *mesh->ring);
+	if (mesh->triangles != NULL && mesh->stack != NULL && mesh->ring != NULL)
 	{
 		for (size_t v = 0; v < vertices; v++)
-			mesh->edge[v] = TY_NONE;
+			mesh->vertex[v].edge = TY_NONE;
 		status = ty_mesh_triangulate(mesh, list, keys, n);
 	}
 	if (status != TY_OK)
@@ -381,9 +371,9 @@ void
 ty_mesh_free(ty_mesh *mesh)
 {
 	ty_release(mesh->env, mesh->triangles);
-	ty_release(mesh->env, mesh->edge);
 	ty_release(mesh->env, mesh->stack);
+	ty_release(mesh->env, mesh->ring);
 	mesh->triangles = NULL;
-	mesh->edge = NULL;
 	mesh->stack = NULL;
+	mesh->ring = NULL;
 }

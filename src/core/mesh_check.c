@@ -21,7 +21,7 @@ check_half_edge(const ty_mesh *mesh, uint32_t h)
 		return "two half-edges do not agree that they are opposite";
 	if (ty_origin(mesh, g) != b || ty_target(mesh, g) != a)
 		return "opposite half-edges have different ends";
-	if (a != TY_GHOST && (a >= mesh->vertices || mesh->edge[a] == TY_NONE))
+	if (a != TY_GHOST && (a >= mesh->vertices || mesh->vertex[a].edge == TY_NONE))
 		return "a triangle has a vertex that is not in the mesh";
 	if (ty_mesh_violates(mesh, h))
 		return "an edge is not Delaunay, or the hull turns inwards";
@@ -35,12 +35,12 @@ check_hull(const ty_mesh *mesh, uint32_t h)
 	uint32_t v = ty_origin(mesh, h);
 	uint32_t before = ty_origin(mesh, ty_previous_in_triangle(h));
 	uint32_t after = ty_target(mesh, ty_next_in_triangle(ty_opposite(mesh, h)));
-	const ty_position *p = mesh->position;
+	ty_position b = mesh->vertex[before].position, p = mesh->vertex[v].position, a = mesh->vertex[after].position;
 
-	if (before == after || ty_orientation(p[before], p[v], p[after]) != 0)
+	if (before == after || ty_turn(mesh, before, v, after) != 0)
 		return NULL;
-	if (((int64_t) p[v].x - p[before].x) * ((int64_t) p[after].x - p[v].x) +
-			((int64_t) p[v].y - p[before].y) * ((int64_t) p[after].y - p[v].y) <=
+	if (((int64_t) p.x - b.x) * ((int64_t) a.x - p.x) +
+			((int64_t) p.y - b.y) * ((int64_t) a.y - p.y) <=
 		0)
 		return "a straight hull folds back";
 	return NULL;
@@ -64,7 +64,7 @@ check_triangle(const ty_mesh *mesh, uint32_t t)
 			fault = check_hull(mesh, h);
 	}
 	if (fault == NULL && ghosts == 0 &&
-		ty_orientation(mesh->position[v[0]], mesh->position[v[1]], mesh->position[v[2]]) <= 0)
+		ty_turn(mesh, v[0], v[1], v[2]) <= 0)
 		fault = "a triangle is not counter-clockwise";
 	return fault;
 }
@@ -76,7 +76,7 @@ check_vertices(const ty_mesh *mesh)
 
 	for (size_t v = 0; v < mesh->vertices; v++)
 	{
-		uint32_t h = mesh->edge[v];
+		uint32_t h = mesh->vertex[v].edge;
 
 		if (h == TY_NONE)
 			continue;

@@ -13,12 +13,88 @@ ty_mesh_bond(ty_mesh *mesh, uint32_t h, uint32_t g)
 	mesh->triangles[g / 3].adjacent[g % 3] = h;
 }
 
+static inline uint32_t
+ty_take_triangle(ty_mesh *mesh)
+{
+	uint32_t t = mesh->free_triangle;
+
+	if (t == TY_NONE)
+		return mesh->used_triangles++;
+	mesh->free_triangle = mesh->triangles[t].adjacent[0];
+	return t;
+}
+
+static inline void
+ty_give_triangle(ty_mesh *mesh, uint32_t t)
+{
+	mesh->triangles[t].vertex[0] = TY_NONE;
+	mesh->triangles[t].vertex[1] = TY_NONE;
+	mesh->triangles[t].vertex[2] = TY_NONE;
+	mesh->triangles[t].adjacent[0] = mesh->free_triangle;
+	mesh->free_triangle = t;
+}
+
+static inline void
+ty_set_edge(ty_mesh *mesh, uint32_t v, uint32_t h)
+{
+	if (v != TY_GHOST)
+		mesh->vertex[v].edge = h;
+}
+
+/* names the corners of a triangle and makes it known to them */
+static inline void
+ty_set_triangle(ty_mesh *mesh, uint32_t t, uint32_t a, uint32_t b, uint32_t c)
+{
+	mesh->triangles[t].vertex[0] = a;
+	mesh->triangles[t].vertex[1] = b;
+	mesh->triangles[t].vertex[2] = c;
+	ty_set_edge(mesh, a, 3 * t);
+	ty_set_edge(mesh, b, 3 * t + 1);
+	ty_set_edge(mesh, c, 3 * t + 2);
+}
+
+static inline void
+ty_tell_edge(const ty_mesh *mesh, uint32_t a, uint32_t b)
+{
+	if (mesh->edge_made != NULL && a != TY_GHOST && b != TY_GHOST)
+		mesh->edge_made(mesh->edge_context, a, b);
+}
+
 static inline bool
 ty_mesh_is_ghost(const ty_mesh *mesh, uint32_t t)
 {
 	const uint32_t *v = mesh->triangles[t].vertex;
 
 	return v[0] == TY_GHOST || v[1] == TY_GHOST || v[2] == TY_GHOST;
+}
+
+/* the half-edge from s, which is no ghost, to t; TY_NONE when there is none */
+static inline uint32_t
+ty_mesh_find_edge(const ty_mesh *mesh, uint32_t s, uint32_t t)
+{
+	uint32_t first = mesh->vertex[s].edge, h = first;
+
+	do
+	{
+		if (ty_target(mesh, h) == t)
+			return h;
+	} while ((h = ty_next_around(mesh, h)) != first);
+	return TY_NONE;
+}
+
+/* orientation of three vertices, see ty_orientation */
+static inline int64_t
+ty_turn(const ty_mesh *mesh, uint32_t a, uint32_t b, uint32_t c)
+{
+	return ty_orientation(mesh->vertex[a].position, mesh->vertex[b].position, mesh->vertex[c].position);
+}
+
+/* whether the circle through a, b, c holds d, see ty_in_circle */
+static inline bool
+ty_circle_holds(const ty_mesh *mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t d)
+{
+	return ty_in_circle(mesh->vertex[a].position, mesh->vertex[b].position, mesh->vertex[c].position,
+						mesh->vertex[d].position, a, b, c, d);
 }
 
 /*
@@ -32,5 +108,8 @@ bool ty_mesh_violates(const ty_mesh *mesh, uint32_t h);
 
 /* Fills an empty mesh with triangles over n >= 1 vertices; list and keys as in ty_mesh_build. */
 ty_status ty_mesh_triangulate(ty_mesh *mesh, const uint32_t *list, const uint64_t *keys, size_t n);
+
+/* Takes a vertex out of a mesh that is not a chain, and fills the hole with Delaunay triangles. In mesh_hole.c. */
+ty_status ty_mesh_remove(ty_mesh *mesh, uint32_t v);
 
 #endif

@@ -1,5 +1,6 @@
 /* compare.c - see compare.h */
 #include "compare.h"
+#include "sets.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -28,14 +29,14 @@ vertices_of_mesh(const reference *ref, const ty_mesh *mesh, uint32_t *list, size
 	*m = 0;
 	for (uint32_t v = 0; v < ref->n; v++)
 	{
-		if (mesh->edge[v] == TY_NONE)
+		if (mesh->vertex[v].edge == TY_NONE)
 			continue;
 		if (!ref->vertex[v].live)
 			return "a vertex that is gone is still in the mesh";
-		if (!same(mesh->position[v], ref->vertex[v].at))
+		if (!same(mesh->vertex[v].position, ref->vertex[v].at))
 			return "a vertex of the mesh is elsewhere";
 		for (size_t i = 0; i < *m; i++)
-			if (same(mesh->position[list[i]], mesh->position[v]))
+			if (same(mesh->vertex[list[i]].position, mesh->vertex[v].position))
 				return "two vertices of the mesh are at one position";
 		list[(*m)++] = v;
 	}
@@ -44,7 +45,7 @@ vertices_of_mesh(const reference *ref, const ty_mesh *mesh, uint32_t *list, size
 		bool found = !ref->vertex[v].live;
 
 		for (size_t i = 0; i < *m && !found; i++)
-			found = same(mesh->position[list[i]], ref->vertex[v].at);
+			found = same(mesh->vertex[list[i]].position, ref->vertex[v].at);
 		if (!found)
 			return "the position of a live vertex is not in the mesh";
 	}
@@ -56,11 +57,12 @@ compare_edges(const ty_mesh *mesh, const uint32_t *list, size_t m)
 {
 	reference_edges expected;
 	reference_edges found;
+	ty_position position[REFERENCE_MAX];
 
 	memset(found, 0, sizeof found);
 	for (size_t i = 0; i < m; i++)
 	{
-		uint32_t first = mesh->edge[list[i]];
+		uint32_t first = mesh->vertex[list[i]].edge;
 		uint32_t h = first;
 
 		do
@@ -72,7 +74,8 @@ compare_edges(const ty_mesh *mesh, const uint32_t *list, size_t m)
 			h = ty_next_around(mesh, h);
 		} while (h != first);
 	}
-	reference_delaunay(mesh->position, list, m, expected);
+	positions_of_vertices(mesh->vertex, mesh->vertices, position);
+	reference_delaunay(position, list, m, expected);
 	return memcmp(expected, found, sizeof found) == 0 ? NULL : "the edges are not those of the reference mesh";
 }
 

@@ -7,7 +7,7 @@
 #ifndef TY_SETS_H
 #define TY_SETS_H
 
-#include "grid.h"
+#include "mesh.h"
 #include "random.h"
 
 typedef enum small_kind
@@ -58,6 +58,10 @@ extern const char *const large_kind_name[LARGE_KINDS];
 void small_set(small_kind kind, random_state *random, ty_position *position, size_t n);
 /* sorts into canonical order, as ty_collapse wants it, and gives the keys */
 void sort_along_curve(ty_position *position, uint64_t *keys, size_t n);
+
+/* vertices for a mesh, one at each position, and back */
+void vertices_at_positions(const ty_position *position, size_t n, ty_vertex *vertex);
+void positions_of_vertices(const ty_vertex *vertex, size_t n, ty_position *position);
 
 /* n buildings of the kind with random areas and rectangles and id = index */
 void large_set(large_kind kind, random_state *random, ty_building *buildings, size_t n);

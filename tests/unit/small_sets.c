@@ -234,3 +234,17 @@ sort_along_curve(ty_position *position, uint64_t *keys, size_t n)
 	for (size_t i = 0; i < n; i++)
 		keys[i] = ty_hilbert_key(position[i]);
 }
+
+void
+vertices_at_positions(const ty_position *position, size_t n, ty_vertex *vertex)
+{
+	for (size_t i = 0; i < n; i++)
+		vertex[i] = (ty_vertex){position[i], TY_NONE, 1};
+}
+
+void
+positions_of_vertices(const ty_vertex *vertex, size_t n, ty_position *position)
+{
+	for (size_t i = 0; i < n; i++)
+		position[i] = vertex[i].position;
+}

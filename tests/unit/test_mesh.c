@@ -26,18 +26,20 @@ static bool
 edges_equal(const ty_mesh *mesh, const uint32_t *list, size_t n)
 {
 	static reference_edges expected, found;
+	ty_position position[REFERENCE_MAX];
 
 	memset(found, 0, sizeof found);
 	for (size_t i = 0; i < n && n > 1; i++)
 	{
-		uint32_t h = mesh->edge[list[i]];
+		uint32_t h = mesh->vertex[list[i]].edge;
 
 		do
 			if (ty_target(mesh, h) != TY_GHOST)
 				found[list[i]][ty_target(mesh, h)] = true;
-		while ((h = ty_next_around(mesh, h)) != mesh->edge[list[i]]);
+		while ((h = ty_next_around(mesh, h)) != mesh->vertex[list[i]].edge);
 	}
-	reference_delaunay(mesh->position, list, n, expected);
+	positions_of_vertices(mesh->vertex, mesh->vertices, position);
+	reference_delaunay(position, list, n, expected);
 	return memcmp(expected, found, sizeof found) == 0;
 }
 
@@ -46,6 +48,7 @@ built_mesh_equals_all_triples(void)
 {
 	uint32_t list[REFERENCE_MAX];
 	ty_position position[REFERENCE_MAX];
+	ty_vertex vertex[REFERENCE_MAX];
 	uint64_t keys[REFERENCE_MAX];
 
 	for (uint32_t i = 0; i < REFERENCE_MAX; i++)
@@ -61,7 +64,8 @@ built_mesh_equals_all_triples(void)
 		small_set(kind, &random, position, n);
 		sort_along_curve(position, keys, n);
 		n = drop_repeats(position, keys, n);
-		NEED(ty_mesh_build(&ty_plain_environment, position, n, set % 2 == 0 ? NULL : list, keys, n, &mesh) == TY_OK,
+		vertices_at_positions(position, n, vertex);
+		NEED(ty_mesh_build(&ty_plain_environment, vertex, n, set % 2 == 0 ? NULL : list, keys, n, &mesh) == TY_OK,
 			 "%s, set %zu", small_kind_name[kind], set);
 		broken = ty_mesh_check(&mesh);
 		NEED(broken == NULL, "%s, set %zu, n %zu: %s", small_kind_name[kind], set, n, broken);
@@ -75,6 +79,7 @@ static void
 a_mesh_over_a_part_of_the_vertices(void)
 {
 	ty_position position[REFERENCE_MAX];
+	ty_vertex vertex[REFERENCE_MAX];
 	uint64_t keys[REFERENCE_MAX], part_keys[REFERENCE_MAX];
 	uint32_t part[REFERENCE_MAX];
 	random_state random = random_seed(31);
@@ -87,13 +92,14 @@ a_mesh_over_a_part_of_the_vertices(void)
 		small_set((small_kind) (set % SMALL_KINDS), &random, position, 40);
 		sort_along_curve(position, keys, 40);
 		n = drop_repeats(position, keys, 40);
+		vertices_at_positions(position, n, vertex);
 		for (uint32_t i = 0; i < n; i++)
 			if (m == 0 || random_between(&random, 0, 2) > 0)
 			{
 				part[m] = i;
 				part_keys[m++] = keys[i];
 			}
-		NEED(ty_mesh_build(&ty_plain_environment, position, n, part, part_keys, m, &mesh) == TY_OK, "set %zu", set);
+		NEED(ty_mesh_build(&ty_plain_environment, vertex, n, part, part_keys, m, &mesh) == TY_OK, "set %zu", set);
 		NEED(ty_mesh_check(&mesh) == NULL, "set %zu: %s", set, ty_mesh_check(&mesh));
 		CHECK(edges_equal(&mesh, part, m), "set %zu: other edges", set);
 		ty_mesh_free(&mesh);
@@ -101,8 +107,9 @@ a_mesh_over_a_part_of_the_vertices(void)
 }
 
 static ty_mesh
-mesh_of_kind(small_kind kind, random_state *random, ty_position *position)
+mesh_of_kind(small_kind kind, random_state *random, ty_vertex *vertex)
 {
+	ty_position position[REFERENCE_MAX];
 	uint64_t keys[REFERENCE_MAX];
 	size_t n;
 	ty_mesh mesh;
@@ -110,7 +117,8 @@ mesh_of_kind(small_kind kind, random_state *random, ty_position *position)
 	small_set(kind, random, position, 30);
 	sort_along_curve(position, keys, 30);
 	n = drop_repeats(position, keys, 30);
-	CHECK(ty_mesh_build(&ty_plain_environment, position, n, NULL, keys, n, &mesh) == TY_OK, "n %zu", n);
+	vertices_at_positions(position, n, vertex);
+	CHECK(ty_mesh_build(&ty_plain_environment, vertex, n, NULL, keys, n, &mesh) == TY_OK, "n %zu", n);
 	return mesh;
 }
 
@@ -119,26 +127,26 @@ static void
 the_checker_sees_damage(void)
 {
 	random_state random = random_seed(32);
-	ty_position position[REFERENCE_MAX];
+	ty_vertex vertex[REFERENCE_MAX];
 	size_t seen = 0, swapped = 0, moved = 0;
 
 	for (size_t i = 0; i < 100; i++)
 	{
-		ty_mesh mesh = mesh_of_kind(SMALL_MODEST_RANGE, &random, position);
-		uint32_t h = mesh.edge[5];
+		ty_mesh mesh = mesh_of_kind(SMALL_MODEST_RANGE, &random, vertex);
+		uint32_t h = vertex[5].edge;
 		uint32_t opposite = ty_opposite(&mesh, h);
-		ty_position before = position[7];
-		uint32_t *vertex = mesh.triangles[h / 3].vertex;
+		ty_position before = vertex[7].position;
+		uint32_t *corner = mesh.triangles[h / 3].vertex;
 
 		mesh.triangles[h / 3].adjacent[h % 3] = ty_next_in_triangle(h);
 		seen += ty_mesh_check(&mesh) != NULL;
 		mesh.triangles[h / 3].adjacent[h % 3] = opposite;
-		position[7] = (ty_position){1 << 29, 1 << 29};
+		vertex[7].position = (ty_position){1 << 29, 1 << 29};
 		moved += ty_mesh_check(&mesh) != NULL;
-		position[7] = before;
-		*vertex ^= 1;
+		vertex[7].position = before;
+		*corner ^= 1;
 		swapped += ty_mesh_check(&mesh) != NULL;
-		*vertex ^= 1;
+		*corner ^= 1;
 		CHECK(ty_mesh_check(&mesh) == NULL, "repaired: %s", ty_mesh_check(&mesh));
 		ty_mesh_free(&mesh);
 	}
@@ -148,18 +156,13 @@ the_checker_sees_damage(void)
 
 /* Renames every vertex to the next around a square of four, positions and all: nothing changes but the ranks. */
 static void
-rename_around(ty_mesh *mesh, ty_position *square)
+rename_around(ty_mesh *mesh)
 {
-	ty_position last = square[3];
-	uint32_t last_edge = mesh->edge[3];
+	ty_vertex last = mesh->vertex[3];
 
 	for (uint32_t v = 3; v > 0; v--)
-	{
-		square[v] = square[v - 1];
-		mesh->edge[v] = mesh->edge[v - 1];
-	}
-	square[0] = last;
-	mesh->edge[0] = last_edge;
+		mesh->vertex[v] = mesh->vertex[v - 1];
+	mesh->vertex[0] = last;
 	for (uint32_t h = 0; h < 3 * (2 * 4 - 2); h++)
 		if (ty_origin(mesh, h) != TY_GHOST)
 			mesh->triangles[h / 3].vertex[h % 3] = (ty_origin(mesh, h) + 1) % 4;
@@ -170,15 +173,17 @@ static void
 the_checker_sees_the_other_diagonal(void)
 {
 	ty_position square[] = {{0, 0}, {0, 10}, {10, 10}, {10, 0}};
+	ty_vertex vertex[4];
 	uint64_t keys[4];
 	ty_mesh mesh;
 
 	sort_along_curve(square, keys, 4);
-	NEED(ty_mesh_build(&ty_plain_environment, square, 4, NULL, keys, 4, &mesh) == TY_OK, "build");
+	vertices_at_positions(square, 4, vertex);
+	NEED(ty_mesh_build(&ty_plain_environment, vertex, 4, NULL, keys, 4, &mesh) == TY_OK, "build");
 	CHECK(ty_mesh_check(&mesh) == NULL, "%s", ty_mesh_check(&mesh));
-	rename_around(&mesh, square);
+	rename_around(&mesh);
 	CHECK(ty_mesh_check(&mesh) != NULL, "the wrong diagonal passed");
-	rename_around(&mesh, square);
+	rename_around(&mesh);
 	CHECK(ty_mesh_check(&mesh) == NULL, "renamed twice the right one is back: %s", ty_mesh_check(&mesh));
 	ty_mesh_free(&mesh);
 }
