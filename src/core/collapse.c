@@ -329,12 +329,7 @@ ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s
 			ty_after_merge after_merge, void *context, ty_sequence *sequence)
 {
 	size_t least = stop.min_distance > 0 || stop.count < 1 ? 1 : stop.count;
-	ty_run run = {.env = env,
-				  .n = n,
-				  .s_u = s_u,
-				  .sequence = sequence,
-				  .after_merge = after_merge,
-				  .context = context};
+	ty_run run = {.env = env, .n = n, .s_u = s_u, .sequence = sequence, .after_merge = after_merge, .context = context};
 	ty_status status;
 
 	*sequence = (ty_sequence){0};

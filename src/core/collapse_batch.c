@@ -162,7 +162,7 @@ shortest_outside(const ty_run *run)
 {
 	double shortest = INFINITY;
 
-	for (uint32_t h = 0; h < 3 * run->mesh.used_triangles; h++)
+	for (uint32_t h = 0; h < ty_half_edge(run->mesh.used_triangles, 0); h = ty_next_half_edge(h))
 	{
 		uint32_t a = ty_origin(&run->mesh, h), b = ty_target(&run->mesh, h);
 

@@ -8,19 +8,18 @@
  */
 #include "collapse_internal.h"
 
-#include <string.h>
-
 /*
  * Vertices a bucket, about, when costs spread over two octaves: few enough for their stars (some 2 kB each) to stay
  * in the second-level cache until they are collapsed. Tests set it.
  */
 #ifndef TY_BUCKET_VERTICES
-#define TY_BUCKET_VERTICES 512
+#define TY_BUCKET_VERTICES 256
 #endif
 #define OCTAVES 63 /* costs are below 2^30.5 cells * 2^31 */
 
-#define ABREAST 16 /* walks side by side: more than the memory requests a core has under way at a time */
-#define STEPS 16   /* a walk goes no farther: most stars have 6 corners */
+#define ABREAST \
+	24 /* walks side by side: more than the memory requests a core has under way at a time (measured: 16 to 48) */
+#define STEPS 16 /* a walk goes no farther: most stars have 6 corners */
 
 /* ---- buckets ---- */
 
@@ -41,7 +40,8 @@ ty_bucket_begin(ty_run *run)
 	queue->chunk = ty_allocate_array(run->env, queue->chunk_capacity, sizeof *queue->chunk);
 	if (queue->bucket == NULL || queue->chunk == NULL)
 		return TY_NO_MEMORY;
-	memset(queue->bucket, 0xff, queue->buckets * sizeof *queue->bucket);
+	for (uint32_t b = 0; b < queue->buckets; b++)
+		queue->bucket[b] = (ty_bucket){TY_NONE, TY_CHUNK_VERTICES};
 	return TY_OK;
 }
 
@@ -69,24 +69,23 @@ take_chunk(ty_run *run, uint32_t next)
 		taken = queue->used_chunks++;
 	}
 	queue->chunk[taken].next = next;
-	queue->chunk[taken].count = 0;
 	return taken;
 }
 
 ty_status
 ty_bucket_add(ty_run *run, uint32_t v)
 {
-	ty_queue *queue = &run->queue;
-	uint32_t b = ty_bucket_of(queue, queue->key[v]), c = queue->bucket[b];
+	ty_bucket *b = &run->queue.bucket[ty_bucket_of(&run->queue, run->queue.key[v])];
 
-	if (c == TY_NONE || queue->chunk[c].count == sizeof queue->chunk[c].vertex / sizeof queue->chunk[c].vertex[0])
+	if (b->count == TY_CHUNK_VERTICES)
 	{
-		c = take_chunk(run, c);
+		uint32_t c = take_chunk(run, b->first);
+
 		if (c == TY_NONE)
 			return TY_NO_MEMORY;
-		queue->bucket[b] = c;
+		*b = (ty_bucket){c, 0};
 	}
-	queue->chunk[c].vertex[queue->chunk[c].count++] = v;
+	run->queue.chunk[b->first].vertex[b->count++] = v;
 	return TY_OK;
 }
 
@@ -115,7 +114,7 @@ fetch_stars(const ty_run *run, const uint32_t *v, size_t count)
 
 		if (h == TY_NONE)
 			continue;
-		__builtin_prefetch(&triangles[h / 3]);
+		__builtin_prefetch(&triangles[ty_triangle_of(h)]);
 		first[walks] = at[walks] = outer[walks] = h;
 		walks++;
 	}
@@ -133,11 +132,11 @@ fetch_stars(const ty_run *run, const uint32_t *v, size_t count)
 				__builtin_prefetch(&run->vertex[w]);
 			if (apex != TY_GHOST)
 				__builtin_prefetch(&run->vertex[apex]);
-			__builtin_prefetch(&triangles[beyond / 3]);
+			__builtin_prefetch(&triangles[ty_triangle_of(beyond)]);
 			h = ty_next_around(&run->mesh, h);
 			if (h == first[i])
 				continue;
-			__builtin_prefetch(&triangles[h / 3]);
+			__builtin_prefetch(&triangles[ty_triangle_of(h)]);
 			first[going] = first[i];
 			at[going] = h;
 			outer[going] = beyond;
@@ -147,24 +146,56 @@ fetch_stars(const ty_run *run, const uint32_t *v, size_t count)
 	}
 }
 
-/* Gives the vertices their least edges as keys. */
+/* vertices whose keys are to be looked at again */
+typedef struct lookout
+{
+	size_t count;
+	uint32_t vertex[ABREAST];
+} lookout;
+
+/* Gives the vertices their least edges as keys, and forgets them. */
 static ty_status
-look_again(ty_run *run, const uint32_t *v, size_t count)
+look_again(ty_run *run, lookout *looked)
 {
 	uint32_t other[ABREAST];
 	size_t others = 0;
 	ty_status status = TY_OK;
 
-	fetch_stars(run, v, count);
-	for (size_t i = 0; i < count && status == TY_OK; i++)
+	fetch_stars(run, looked->vertex, looked->count);
+	for (size_t i = 0; i < looked->count && status == TY_OK; i++)
 	{
-		ty_edge least = ty_least_edge(run, v[i]);
+		ty_edge least = ty_least_edge(run, looked->vertex[i]);
 
 		status = ty_queue_set(run, least);
-		if (least.other != TY_NONE && ty_bucket_of(&run->queue, run->queue.key[v[i]]) < run->queue.next)
+		if (least.other != TY_NONE && ty_bucket_of(&run->queue, run->queue.key[least.owner]) < run->queue.next)
 			other[others++] = least.other;
 	}
 	fetch_stars(run, other, others);
+	looked->count = 0;
+	return status;
+}
+
+/* Takes a chunk's vertices to `looked`, and looks at each full house of them; those that have another key now are out. */
+static ty_status
+drain_chunk(ty_run *run, uint32_t b, const ty_chunk *chunk, uint32_t vertices, lookout *looked)
+{
+	ty_status status = TY_OK;
+
+	for (uint32_t i = 0; i < vertices; i++)
+	{
+		__builtin_prefetch(&run->vertex[chunk->vertex[i]]);
+		__builtin_prefetch(&run->queue.key[chunk->vertex[i]]);
+	}
+	for (uint32_t i = 0; i < vertices && status == TY_OK; i++)
+	{
+		uint32_t v = chunk->vertex[i];
+
+		if (run->vertex[v].edge == TY_NONE || ty_bucket_of(&run->queue, run->queue.key[v]) != b)
+			continue;
+		looked->vertex[looked->count++] = v;
+		if (looked->count == ABREAST)
+			status = look_again(run, looked);
+	}
 	return status;
 }
 
@@ -172,39 +203,29 @@ ty_status
 ty_bucket_drain(ty_run *run, bool *found)
 {
 	ty_queue *queue = &run->queue;
-	uint32_t b = queue->next, c;
-	uint32_t v[ABREAST];
-	size_t count = 0;
+	uint32_t b = queue->next;
+	ty_bucket bucket;
+	lookout looked = {.count = 0};
 	ty_status status = TY_OK;
 
-	while (b < queue->buckets && queue->bucket[b] == TY_NONE)
+	while (b < queue->buckets && queue->bucket[b].first == TY_NONE)
 		b++;
 	*found = b < queue->buckets;
 	if (!*found)
 		return TY_OK;
 	queue->next = b + 1;
-	c = queue->bucket[b];
-	queue->bucket[b] = TY_NONE;
-	while (c != TY_NONE && status == TY_OK)
+	bucket = queue->bucket[b];
+	queue->bucket[b] = (ty_bucket){TY_NONE, TY_CHUNK_VERTICES};
+	while (bucket.first != TY_NONE && status == TY_OK)
 	{
-		ty_chunk chunk = queue->chunk[c];
+		ty_chunk chunk = queue->chunk[bucket.first]; /* a copy: others may take its place */
 
-		queue->chunk[c].next = queue->free_chunk;
-		queue->free_chunk = c;
-		c = chunk.next;
-		for (uint32_t i = 0; i < chunk.count && status == TY_OK; i++)
-		{
-			uint32_t w = chunk.vertex[i];
-
-			if (run->vertex[w].edge == TY_NONE || ty_bucket_of(queue, queue->key[w]) != b)
-				continue;
-			v[count++] = w;
-			if (count == ABREAST)
-			{
-				status = look_again(run, v, count);
-				count = 0;
-			}
-		}
+		if (chunk.next != TY_NONE)
+			__builtin_prefetch(&queue->chunk[chunk.next]);
+		queue->chunk[bucket.first].next = queue->free_chunk;
+		queue->free_chunk = bucket.first;
+		status = drain_chunk(run, b, &chunk, bucket.count, &looked);
+		bucket = (ty_bucket){chunk.next, TY_CHUNK_VERTICES};
 	}
-	return status == TY_OK ? look_again(run, v, count) : status;
+	return status == TY_OK ? look_again(run, &looked) : status;
 }

@@ -13,11 +13,19 @@ typedef struct ty_edge
 } ty_edge;
 
 /* vertices that wait in a bucket; a cache line */
+#define TY_CHUNK_VERTICES 15
 typedef struct ty_chunk
 {
-	uint32_t next, count;
-	uint32_t vertex[14];
+	uint32_t next;
+	uint32_t vertex[TY_CHUNK_VERTICES];
 } ty_chunk;
+
+/* All chunks but the first are full. */
+typedef struct ty_bucket
+{
+	uint32_t first; /* chunk; TY_NONE: empty */
+	uint32_t count; /* of the first chunk's vertices: not in the chunk, which would have to be waited for */
+} ty_bucket;
 
 /* The priority order of the edges: see the head of collapse_queue.c. */
 typedef struct ty_queue
@@ -25,7 +33,7 @@ typedef struct ty_queue
 	int32_t *key; /* [n] bits of a float not above the costs of the edges that the vertex covers */
 	ty_edge *heap;
 	size_t heap_count, heap_capacity;
-	uint32_t *bucket; /* [buckets] first chunk of each; those before `next` are done and their keys are in the heap */
+	ty_bucket *bucket; /* [buckets] those before `next` are done and their keys are in the heap */
 	uint32_t buckets, next;
 	int shift; /* a key's bits below a bucket's number */
 	ty_chunk *chunk;
@@ -39,8 +47,8 @@ typedef struct ty_run
 	size_t n;
 	double s_u;
 	ty_mesh mesh;
-	ty_vertex *vertex;	/* [n] the mesh's */
-	ty_position *rest;	/* [n] sum of the represented centroids less size * position, per coordinate: exact */
+	ty_vertex *vertex; /* [n] the mesh's */
+	ty_position *rest; /* [n] sum of the represented centroids less size * position, per coordinate: exact */
 	ty_queue queue;
 	uint32_t *near; /* for min_distance: vertices that may have a neighbour nearer than it; else NULL */
 	size_t near_count;

@@ -224,7 +224,7 @@ fill_buckets(ty_run *run)
 	ty_queue *queue = &run->queue;
 	ty_status status = TY_OK;
 
-	for (uint32_t h = 0; h < 3 * run->mesh.used_triangles; h++)
+	for (uint32_t h = 0; h < ty_half_edge(run->mesh.used_triangles, 0); h = ty_next_half_edge(h))
 	{
 		uint32_t a = ty_origin(&run->mesh, h), b = ty_target(&run->mesh, h);
 
@@ -252,7 +252,7 @@ fill_heap(ty_run *run)
 
 	for (uint32_t v = 0; v < run->n; v++)
 		queue->heap[v] = (ty_edge){INFINITY, v, TY_NONE};
-	for (uint32_t h = 0; h < 3 * run->mesh.used_triangles; h++)
+	for (uint32_t h = 0; h < ty_half_edge(run->mesh.used_triangles, 0); h = ty_next_half_edge(h))
 	{
 		uint32_t a = ty_origin(&run->mesh, h), b = ty_target(&run->mesh, h);
 

@@ -37,7 +37,7 @@ void
 ty_mesh_flip(ty_mesh *mesh, uint32_t h, uint32_t corner[4])
 {
 	uint32_t g = ty_opposite(mesh, h);
-	uint32_t t0 = h / 3, t1 = g / 3;
+	uint32_t t0 = ty_triangle_of(h), t1 = ty_triangle_of(g);
 	uint32_t a = ty_origin(mesh, h), b = ty_origin(mesh, g);
 	uint32_t c = ty_origin(mesh, ty_previous_in_triangle(h)), d = ty_origin(mesh, ty_previous_in_triangle(g));
 	uint32_t bc = ty_opposite(mesh, ty_next_in_triangle(h)), ca = ty_opposite(mesh, ty_previous_in_triangle(h));
@@ -45,11 +45,11 @@ ty_mesh_flip(ty_mesh *mesh, uint32_t h, uint32_t corner[4])
 
 	mesh->triangles[t0] = (ty_triangle){{a, d, c}, {0, 0, 0}};
 	mesh->triangles[t1] = (ty_triangle){{d, b, c}, {0, 0, 0}};
-	ty_mesh_bond(mesh, 3 * t0, ad);
-	ty_mesh_bond(mesh, 3 * t0 + 1, 3 * t1 + 2);
-	ty_mesh_bond(mesh, 3 * t0 + 2, ca);
-	ty_mesh_bond(mesh, 3 * t1, db);
-	ty_mesh_bond(mesh, 3 * t1 + 1, bc);
+	ty_mesh_bond(mesh, ty_half_edge(t0, 0), ad);
+	ty_mesh_bond(mesh, ty_half_edge(t0, 1), ty_half_edge(t1, 2));
+	ty_mesh_bond(mesh, ty_half_edge(t0, 2), ca);
+	ty_mesh_bond(mesh, ty_half_edge(t1, 0), db);
+	ty_mesh_bond(mesh, ty_half_edge(t1, 1), bc);
 	corner[0] = a;
 	corner[1] = d;
 	corner[2] = b;
@@ -76,19 +76,19 @@ ty_mesh_violates(const ty_mesh *mesh, uint32_t h)
 static ty_status
 flip_and_push(ty_mesh *mesh, uint32_t h, uint32_t fresh)
 {
-	uint32_t t0 = h / 3, t1 = ty_opposite(mesh, h) / 3;
+	uint32_t t0 = ty_triangle_of(h), t1 = ty_triangle_of(ty_opposite(mesh, h));
 	uint32_t corner[4];
 	ty_status status;
 
 	ty_mesh_flip(mesh, h, corner);
-	ty_set_edge(mesh, corner[0], 3 * t0);
-	ty_set_edge(mesh, corner[1], 3 * t0 + 1);
-	ty_set_edge(mesh, corner[2], 3 * t1 + 1);
-	ty_set_edge(mesh, corner[3], 3 * t1 + 2);
+	ty_set_edge(mesh, corner[0], ty_half_edge(t0, 0));
+	ty_set_edge(mesh, corner[1], ty_half_edge(t0, 1));
+	ty_set_edge(mesh, corner[2], ty_half_edge(t1, 1));
+	ty_set_edge(mesh, corner[3], ty_half_edge(t1, 2));
 	if (corner[1] != fresh && corner[3] != fresh)
 		ty_tell_edge(mesh, corner[1], corner[3]);
-	if ((status = push(mesh, 3 * t0)) != TY_OK || (status = push(mesh, 3 * t0 + 2)) != TY_OK ||
-		(status = push(mesh, 3 * t1)) != TY_OK || (status = push(mesh, 3 * t1 + 1)) != TY_OK)
+	if ((status = push(mesh, ty_half_edge(t0, 0))) != TY_OK || (status = push(mesh, ty_half_edge(t0, 2))) != TY_OK ||
+		(status = push(mesh, ty_half_edge(t1, 0))) != TY_OK || (status = push(mesh, ty_half_edge(t1, 1))) != TY_OK)
 		return status;
 	return TY_OK;
 }
@@ -187,7 +187,7 @@ close_triangle(ty_mesh *mesh, uint32_t h)
 	ty_mesh_bond(mesh, left, right);
 	ty_set_edge(mesh, ty_origin(mesh, left), left);
 	ty_set_edge(mesh, ty_origin(mesh, right), right);
-	ty_give_triangle(mesh, h / 3);
+	ty_give_triangle(mesh, ty_triangle_of(h));
 }
 
 /* Contracts the half-edge h, whose ends are kept and gone and have the ring; kept comes to `to`. Topology only. */
@@ -197,7 +197,7 @@ contract(ty_mesh *mesh, uint32_t h, uint32_t kept, uint32_t gone, ty_position to
 	uint32_t g = ty_opposite(mesh, h);
 
 	for (size_t i = 0; i < mesh->ring_count; i++)
-		mesh->triangles[mesh->ring[i] / 3].vertex[mesh->ring[i] % 3] = kept;
+		mesh->triangles[ty_triangle_of(mesh->ring[i])].vertex[ty_corner_of(mesh->ring[i])] = kept;
 	close_triangle(mesh, h);
 	close_triangle(mesh, g);
 	mesh->vertex[gone].edge = TY_NONE;
@@ -243,8 +243,8 @@ typedef struct location
 static bool
 triangle_holds(const ty_mesh *mesh, uint32_t t, ty_position p, location *at, uint32_t *out)
 {
-	*at = (location){3 * t, false, TY_NONE};
-	for (uint32_t h = 3 * t; h < 3 * t + 3; h++)
+	*at = (location){ty_half_edge(t, 0), false, TY_NONE};
+	for (uint32_t h = ty_half_edge(t, 0); h <= ty_half_edge(t, 2); h++)
 	{
 		ty_position a = mesh->vertex[ty_origin(mesh, h)].position, b = mesh->vertex[ty_target(mesh, h)].position;
 		int64_t side = ty_orientation(a, b, p);
@@ -270,8 +270,8 @@ real_triangle(const ty_mesh *mesh, uint32_t v)
 
 	do
 	{
-		if (!ty_mesh_is_ghost(mesh, h / 3))
-			return h / 3;
+		if (!ty_mesh_is_ghost(mesh, ty_triangle_of(h)))
+			return ty_triangle_of(h);
 	} while ((h = ty_next_around(mesh, h)) != first);
 	return TY_NONE;
 }
@@ -288,7 +288,7 @@ locate(const ty_mesh *mesh, uint32_t t, ty_position p)
 	{
 		uint32_t beyond = ty_opposite(mesh, out);
 
-		t = beyond / 3;
+		t = ty_triangle_of(beyond);
 		if (ty_mesh_is_ghost(mesh, t))
 			return (location){beyond, false, TY_NONE};
 	}
@@ -299,7 +299,7 @@ locate(const ty_mesh *mesh, uint32_t t, ty_position p)
 static ty_status
 split_triangle(ty_mesh *mesh, uint32_t h, uint32_t v)
 {
-	uint32_t t0 = h / 3, t1 = ty_take_triangle(mesh), t2 = ty_take_triangle(mesh);
+	uint32_t t0 = ty_triangle_of(h), t1 = ty_take_triangle(mesh), t2 = ty_take_triangle(mesh);
 	uint32_t a = mesh->triangles[t0].vertex[0], b = mesh->triangles[t0].vertex[1], c = mesh->triangles[t0].vertex[2];
 	uint32_t ab = mesh->triangles[t0].adjacent[0], bc = mesh->triangles[t0].adjacent[1];
 	uint32_t ca = mesh->triangles[t0].adjacent[2];
@@ -308,15 +308,15 @@ split_triangle(ty_mesh *mesh, uint32_t h, uint32_t v)
 	ty_set_triangle(mesh, t0, a, b, v);
 	ty_set_triangle(mesh, t1, b, c, v);
 	ty_set_triangle(mesh, t2, c, a, v);
-	ty_mesh_bond(mesh, 3 * t0, ab);
-	ty_mesh_bond(mesh, 3 * t1, bc);
-	ty_mesh_bond(mesh, 3 * t2, ca);
-	ty_mesh_bond(mesh, 3 * t0 + 1, 3 * t1 + 2);
-	ty_mesh_bond(mesh, 3 * t1 + 1, 3 * t2 + 2);
-	ty_mesh_bond(mesh, 3 * t2 + 1, 3 * t0 + 2);
-	if ((status = push(mesh, 3 * t0)) != TY_OK || (status = push(mesh, 3 * t1)) != TY_OK)
+	ty_mesh_bond(mesh, ty_half_edge(t0, 0), ab);
+	ty_mesh_bond(mesh, ty_half_edge(t1, 0), bc);
+	ty_mesh_bond(mesh, ty_half_edge(t2, 0), ca);
+	ty_mesh_bond(mesh, ty_half_edge(t0, 1), ty_half_edge(t1, 2));
+	ty_mesh_bond(mesh, ty_half_edge(t1, 1), ty_half_edge(t2, 2));
+	ty_mesh_bond(mesh, ty_half_edge(t2, 1), ty_half_edge(t0, 2));
+	if ((status = push(mesh, ty_half_edge(t0, 0))) != TY_OK || (status = push(mesh, ty_half_edge(t1, 0))) != TY_OK)
 		return status;
-	return push(mesh, 3 * t2);
+	return push(mesh, ty_half_edge(t2, 0));
 }
 
 /* Inserts v at the place that was located. */
@@ -349,7 +349,7 @@ typedef struct change
 static void
 tell_all_edges(const ty_mesh *mesh)
 {
-	for (uint32_t h = 0; h < 3 * mesh->used_triangles; h++)
+	for (uint32_t h = 0; h < ty_half_edge(mesh->used_triangles, 0); h = ty_next_half_edge(h))
 		if (ty_origin(mesh, h) < ty_target(mesh, h))
 			ty_tell_edge(mesh, ty_origin(mesh, h), ty_target(mesh, h));
 }

@@ -1,7 +1,7 @@
 /*
  * mesh.h - the Delaunay mesh of the current vertices, restored locally after every collapse (spec 2.2).
  *
- * Vertices are numbered by rank. Triangles are one flat array; half-edge h = 3 * triangle + corner runs
+ * Vertices are numbered by rank. Triangles are one flat array; half-edge h = 4 * triangle + corner runs
  * from vertex[corner] to the next corner. Every hull edge carries a ghost triangle whose third vertex is
  * TY_GHOST, so the mesh is a closed surface and no operation has a special case for the hull. A collinear
  * (or two-point) mesh consists of ghosts alone: a chain.
@@ -17,7 +17,7 @@
 
 #define TY_GHOST UINT32_MAX
 #define TY_NONE UINT32_MAX
-#define TY_MAX_VERTICES ((size_t) 700000000) /* 6 half-edges a vertex in 32 bits */
+#define TY_MAX_VERTICES ((size_t) 500000000) /* 2 triangles a vertex, whose half-edges are numbered in 32 bits */
 
 typedef struct ty_triangle
 {
@@ -36,10 +36,10 @@ typedef struct ty_vertex
 typedef struct ty_mesh
 {
 	const ty_environment *env;
-	ty_vertex *vertex;		/* [vertices] borrowed from the caller; the mesh changes positions and edges */
-	size_t vertices;		/* length of vertex */
-	size_t live;			/* vertices in the mesh */
-	ty_triangle *triangles; /* [2 * vertices - 2] */
+	ty_vertex *vertex;		 /* [vertices] borrowed from the caller; the mesh changes positions and edges */
+	size_t vertices;		 /* length of vertex */
+	size_t live;			 /* vertices in the mesh */
+	ty_triangle *triangles;	 /* [2 * vertices - 2] */
 	uint32_t used_triangles; /* triangles from here on have never been used */
 	uint32_t free_triangle;	 /* list of those given back, linked by adjacent[0], vertices TY_NONE */
 	uint32_t *stack;		 /* half-edges to examine */
@@ -82,23 +82,49 @@ ty_status ty_mesh_collapse_many(ty_mesh *mesh, const uint32_t *kept, const uint3
 ty_status ty_mesh_part_many(ty_mesh *mesh, const uint32_t *kept, const uint32_t *gone, const ty_position *place,
 							size_t n);
 
+/* half-edges by number: a corner is 0, 1 or 2; the numbers 4 * triangle + 3 are not used */
+static inline uint32_t
+ty_half_edge(uint32_t triangle, uint32_t corner)
+{
+	return 4 * triangle + corner;
+}
+
+static inline uint32_t
+ty_triangle_of(uint32_t h)
+{
+	return h / 4;
+}
+
+static inline uint32_t
+ty_corner_of(uint32_t h)
+{
+	return h % 4;
+}
+
+/* for loops over all half-edges, from 0 to ty_half_edge(used_triangles, 0) */
+static inline uint32_t
+ty_next_half_edge(uint32_t h)
+{
+	return ty_corner_of(h) == 2 ? h + 2 : h + 1;
+}
+
 /* Walk over the neighbours of v: h = mesh->vertex[v].edge; do { ... } while ((h = ty_next_around(mesh, h)) != first) */
 static inline uint32_t
 ty_next_in_triangle(uint32_t h)
 {
-	return h % 3 == 2 ? h - 2 : h + 1;
+	return ty_corner_of(h) == 2 ? h - 2 : h + 1;
 }
 
 static inline uint32_t
 ty_previous_in_triangle(uint32_t h)
 {
-	return h % 3 == 0 ? h + 2 : h - 1;
+	return ty_corner_of(h) == 0 ? h + 2 : h - 1;
 }
 
 static inline uint32_t
 ty_origin(const ty_mesh *mesh, uint32_t h)
 {
-	return mesh->triangles[h / 3].vertex[h % 3];
+	return mesh->triangles[ty_triangle_of(h)].vertex[ty_corner_of(h)];
 }
 
 static inline uint32_t
@@ -110,7 +136,7 @@ ty_target(const ty_mesh *mesh, uint32_t h)
 static inline uint32_t
 ty_opposite(const ty_mesh *mesh, uint32_t h)
 {
-	return mesh->triangles[h / 3].adjacent[h % 3];
+	return mesh->triangles[ty_triangle_of(h)].adjacent[ty_corner_of(h)];
 }
 
 /* the next half-edge that starts at the same vertex, counter-clockwise; its target may be TY_GHOST */

@@ -120,7 +120,7 @@ left_candidate(const builder *b, seam *s)
 		if (apex == TY_GHOST || !ty_circle_holds(mesh, s->l, s->r, a, apex))
 			return a;
 		ty_mesh_flip(mesh, h, corner);
-		s->left_ghost = 3 * (h / 3); /* l -> ghost */
+		s->left_ghost = ty_half_edge(ty_triangle_of(h), 0); /* l -> ghost */
 		a = apex;
 	}
 }
@@ -146,7 +146,7 @@ right_candidate(const builder *b, seam *s)
 		if (apex == TY_GHOST || !ty_circle_holds(mesh, s->l, s->r, c, apex))
 			return c;
 		ty_mesh_flip(mesh, h, corner);
-		s->right_ghost = 3 * (g / 3); /* ghost -> r */
+		s->right_ghost = ty_half_edge(ty_triangle_of(g), 0); /* ghost -> r */
 		c = apex;
 	}
 }
@@ -159,7 +159,7 @@ close_left(ty_mesh *mesh, seam *s, uint32_t a)
 
 	s->left_ghost = ty_opposite(mesh, next); /* a -> ghost */
 	ty_mesh_bond(mesh, s->left_ghost, s->top + 2);
-	mesh->triangles[next / 3].vertex[next % 3] = s->r;
+	mesh->triangles[ty_triangle_of(next)].vertex[ty_corner_of(next)] = s->r;
 	ty_mesh_bond(mesh, h, s->base);
 	s->base = next;
 	s->l = a;
@@ -173,7 +173,7 @@ close_right(ty_mesh *mesh, seam *s, uint32_t c)
 
 	s->right_ghost = ty_opposite(mesh, previous); /* ghost -> c */
 	ty_mesh_bond(mesh, s->right_ghost, s->top + 1);
-	mesh->triangles[h / 3].vertex[h % 3] = s->l;
+	mesh->triangles[ty_triangle_of(h)].vertex[ty_corner_of(h)] = s->l;
 	ty_mesh_bond(mesh, h, s->base);
 	s->base = previous;
 	s->r = c;
@@ -206,14 +206,14 @@ static ty_status
 join(const builder *b, const part *left, const part *right, uint32_t l, uint32_t r, uint32_t t)
 {
 	ty_mesh *mesh = b->mesh;
-	uint32_t bottom = 3 * t;
+	uint32_t bottom = ty_half_edge(t, 0);
 	uint32_t left_hull = left->single ? TY_NONE : mesh->vertex[l].edge;
 	uint32_t right_hull = right->single ? TY_NONE : mesh->vertex[r].edge;
 	seam s;
 	ty_status status;
 
 	lower_tangent(b, &l, &r, &left_hull, &right_hull);
-	s = (seam){l, r, bottom, left_hull, TY_NONE, 3 * (t + 1)};
+	s = (seam){l, r, bottom, left_hull, TY_NONE, ty_half_edge(t + 1, 0)};
 	make_triangle(mesh, t, r, l, TY_GHOST); /* the ghost below: r -> l, l -> ghost, ghost -> r */
 	make_triangle(mesh, t + 1, l, r, TY_GHOST);
 	ty_mesh_bond(mesh, bottom + 1, left->single ? s.top + 2 : ty_opposite(mesh, left_hull));
@@ -322,7 +322,7 @@ index_edges(ty_mesh *mesh)
 			uint32_t v = mesh->triangles[t].vertex[i];
 
 			if (v != TY_GHOST)
-				mesh->vertex[v].edge = 3 * t + i;
+				mesh->vertex[v].edge = ty_half_edge(t, i);
 		}
 }
 

@@ -15,7 +15,7 @@ check_half_edge(const ty_mesh *mesh, uint32_t h)
 	uint32_t g = ty_opposite(mesh, h);
 	uint32_t a = ty_origin(mesh, h), b = ty_target(mesh, h);
 
-	if (g >= 3 * mesh->used_triangles || is_unused(mesh, g / 3))
+	if (g >= ty_half_edge(mesh->used_triangles, 0) || ty_corner_of(g) > 2 || is_unused(mesh, ty_triangle_of(g)))
 		return "a half-edge's opposite does not exist";
 	if (ty_opposite(mesh, g) != h)
 		return "two half-edges do not agree that they are opposite";
@@ -39,9 +39,7 @@ check_hull(const ty_mesh *mesh, uint32_t h)
 
 	if (before == after || ty_turn(mesh, before, v, after) != 0)
 		return NULL;
-	if (((int64_t) p.x - b.x) * ((int64_t) a.x - p.x) +
-			((int64_t) p.y - b.y) * ((int64_t) a.y - p.y) <=
-		0)
+	if (((int64_t) p.x - b.x) * ((int64_t) a.x - p.x) + ((int64_t) p.y - b.y) * ((int64_t) a.y - p.y) <= 0)
 		return "a straight hull folds back";
 	return NULL;
 }
@@ -57,14 +55,13 @@ check_triangle(const ty_mesh *mesh, uint32_t t)
 		return "a triangle has two ghosts";
 	if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
 		return "a triangle has one vertex twice";
-	for (uint32_t h = 3 * t; h < 3 * t + 3 && fault == NULL; h++)
+	for (uint32_t h = ty_half_edge(t, 0); h <= ty_half_edge(t, 2) && fault == NULL; h++)
 	{
 		fault = check_half_edge(mesh, h);
 		if (fault == NULL && ty_target(mesh, h) == TY_GHOST)
 			fault = check_hull(mesh, h);
 	}
-	if (fault == NULL && ghosts == 0 &&
-		ty_turn(mesh, v[0], v[1], v[2]) <= 0)
+	if (fault == NULL && ghosts == 0 && ty_turn(mesh, v[0], v[1], v[2]) <= 0)
 		fault = "a triangle is not counter-clockwise";
 	return fault;
 }
@@ -81,7 +78,8 @@ check_vertices(const ty_mesh *mesh)
 		if (h == TY_NONE)
 			continue;
 		live++;
-		if (mesh->live > 1 && (h >= 3 * mesh->used_triangles || ty_origin(mesh, h) != v))
+		if (mesh->live > 1 &&
+			(h >= ty_half_edge(mesh->used_triangles, 0) || ty_corner_of(h) > 2 || ty_origin(mesh, h) != v))
 			return "a vertex names a half-edge that does not start at it";
 	}
 	return live == mesh->live ? NULL : "the number of live vertices is wrong";

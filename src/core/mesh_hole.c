@@ -11,8 +11,10 @@
 
 #include <string.h>
 
-/* Most stars have 6 corners. Up to this many d^2 tests cost less than divide and conquer (measured: 6 us each way). */
-#define SMALL_HOLE 24
+/* Most stars have 6 corners. Up to this many d^2 tests cost less than divide and conquer (measured: 6 us each way). Tests set it. */
+#ifndef TY_SMALL_HOLE
+#define TY_SMALL_HOLE 24
+#endif
 
 /* A corner of a hole, and the edge from it to the next corner as seen from outside the hole. */
 typedef struct corner
@@ -27,7 +29,7 @@ typedef struct hole
 {
 	corner *corners;
 	size_t count;
-	uint32_t open[SMALL_HOLE]; /* first corners of the holes still to fill */
+	uint32_t open[TY_SMALL_HOLE]; /* first corners of the holes still to fill */
 	size_t open_count;
 } hole;
 
@@ -48,7 +50,7 @@ open_hole(ty_mesh *mesh, uint32_t v, hole *hole)
 	} while ((h = ty_next_around(mesh, h)) != first);
 	hole->corners[hole->count - 1].next = 0;
 	for (size_t i = 0; i < hole->count; i++)
-		ty_give_triangle(mesh, ty_opposite(mesh, hole->corners[i].outside) / 3);
+		ty_give_triangle(mesh, ty_triangle_of(ty_opposite(mesh, hole->corners[i].outside)));
 	mesh->vertex[v].edge = TY_NONE;
 	mesh->live--;
 }
@@ -69,8 +71,7 @@ delaunay_apex(const ty_mesh *mesh, const corner *corners, uint32_t a, uint32_t b
 		if (v == TY_GHOST)
 			ghost = i;
 		else if (ty_turn(mesh, va, vb, v) > 0 &&
-				 (apex == TY_NONE ||
-				  ty_circle_holds(mesh, va, vb, corners[apex].vertex, v)))
+				 (apex == TY_NONE || ty_circle_holds(mesh, va, vb, corners[apex].vertex, v)))
 			apex = i;
 	}
 	return apex != TY_NONE ? apex : ghost;
@@ -101,17 +102,17 @@ split_hole(ty_mesh *mesh, hole *hole, uint32_t a, uint32_t b, uint32_t apex)
 	uint32_t last = b;
 
 	ty_set_triangle(mesh, t, va, vb, vc);
-	ty_mesh_bond(mesh, 3 * t, corners[a].outside);
+	ty_mesh_bond(mesh, ty_half_edge(t, 0), corners[a].outside);
 	while (corners[last].next != apex)
 		last = corners[last].next;
 	if (last != b)
 		ty_tell_edge(mesh, vb, vc);
 	if (corners[apex].next != a)
 		ty_tell_edge(mesh, vc, va);
-	corners[copy] = (corner){vc, 3 * t + 1, b};
+	corners[copy] = (corner){vc, ty_half_edge(t, 1), b};
 	corners[last].next = copy;
 	corners[a].next = apex;
-	corners[a].outside = 3 * t + 2;
+	corners[a].outside = ty_half_edge(t, 2);
 	hole->open[hole->open_count++] = b;
 	hole->open[hole->open_count++] = a;
 }
@@ -150,9 +151,9 @@ fill_small_hole(ty_mesh *mesh, hole *hole)
 /* The mesh of a hole's corners, and what of it goes into the hole. */
 typedef struct patch
 {
-	ty_mesh mesh;	 /* its vertices are the whole mesh's, their half-edges those of the patch as long as it lives */
-	uint32_t *list;	 /* [corners] vertices of the corners but the ghost, ... */
-	uint64_t *keys;	 /* ... along the Hilbert curve */
+	ty_mesh mesh;	   /* its vertices are the whole mesh's, their half-edges those of the patch as long as it lives */
+	uint32_t *list;	   /* [corners] vertices of the corners but the ghost, ... */
+	uint64_t *keys;	   /* ... along the Hilbert curve */
 	uint32_t *edge_of; /* [half-edges] 1 + the corner where the hole has this edge; 0: it is none of the hole's */
 	uint32_t *becomes; /* [triangles] the triangle of the whole mesh; UNVISITED: it is none of the hole's */
 	uint32_t *visited; /* [triangles] those in the hole, in the order they are met */
@@ -167,13 +168,13 @@ allocate_patch(const ty_mesh *mesh, size_t corners, patch *p)
 	p->mesh.triangles = ty_allocate_array(mesh->env, 2 * corners, sizeof *p->mesh.triangles);
 	p->list = ty_allocate_array(mesh->env, corners, sizeof *p->list);
 	p->keys = ty_allocate_array(mesh->env, corners, sizeof *p->keys);
-	p->edge_of = ty_allocate_array(mesh->env, 6 * corners, sizeof *p->edge_of);
+	p->edge_of = ty_allocate_array(mesh->env, 8 * corners, sizeof *p->edge_of);
 	p->becomes = ty_allocate_array(mesh->env, 2 * corners, sizeof *p->becomes);
 	p->visited = ty_allocate_array(mesh->env, 2 * corners, sizeof *p->visited);
-	if (p->mesh.triangles == NULL || p->list == NULL || p->keys == NULL || p->edge_of == NULL ||
-		p->becomes == NULL || p->visited == NULL)
+	if (p->mesh.triangles == NULL || p->list == NULL || p->keys == NULL || p->edge_of == NULL || p->becomes == NULL ||
+		p->visited == NULL)
 		return TY_NO_MEMORY;
-	memset(p->edge_of, 0, 6 * corners * sizeof *p->edge_of);
+	memset(p->edge_of, 0, 8 * corners * sizeof *p->edge_of);
 	memset(p->becomes, 0xff, 2 * corners * sizeof *p->becomes);
 	return TY_OK;
 }
@@ -237,11 +238,11 @@ visit_inside(ty_mesh *mesh, patch *p, const hole *hole)
 
 	while (p->edge_of[first] == 0)
 		first++;
-	visit(mesh, p, first / 3);
+	visit(mesh, p, ty_triangle_of(first));
 	for (size_t i = 0; i < p->visits; i++)
-		for (uint32_t h = 3 * p->visited[i]; h < 3 * p->visited[i] + 3; h++)
+		for (uint32_t h = ty_half_edge(p->visited[i], 0); h <= ty_half_edge(p->visited[i], 2); h++)
 		{
-			uint32_t t = ty_opposite(&p->mesh, h) / 3;
+			uint32_t t = ty_triangle_of(ty_opposite(&p->mesh, h));
 
 			if (p->edge_of[h] != 0 || p->becomes[t] != UNVISITED)
 				continue;
@@ -262,15 +263,15 @@ move_in(ty_mesh *mesh, const patch *p, const hole *hole)
 		const uint32_t *v = p->mesh.triangles[t].vertex;
 
 		ty_set_triangle(mesh, p->becomes[t], v[0], v[1], v[2]);
-		for (uint32_t h = 3 * t; h < 3 * t + 3; h++)
+		for (uint32_t h = ty_half_edge(t, 0); h <= ty_half_edge(t, 2); h++)
 		{
-			uint32_t g = ty_opposite(&p->mesh, h), moved = 3 * p->becomes[t] + h % 3;
+			uint32_t g = ty_opposite(&p->mesh, h), moved = ty_half_edge(p->becomes[t], ty_corner_of(h));
 
 			if (p->edge_of[h] != 0)
 				ty_mesh_bond(mesh, moved, hole->corners[p->edge_of[h] - 1].outside);
 			else
 			{
-				ty_mesh_bond(mesh, moved, 3 * p->becomes[g / 3] + g % 3);
+				ty_mesh_bond(mesh, moved, ty_half_edge(p->becomes[ty_triangle_of(g)], ty_corner_of(g)));
 				if (h < g)
 					ty_tell_edge(mesh, ty_origin(&p->mesh, h), ty_origin(&p->mesh, g));
 			}
@@ -315,12 +316,12 @@ degree(const ty_mesh *mesh, uint32_t v)
 ty_status
 ty_mesh_remove(ty_mesh *mesh, uint32_t v)
 {
-	corner corners[2 * SMALL_HOLE];
+	corner corners[2 * TY_SMALL_HOLE];
 	size_t corner_count = degree(mesh, v);
 	hole hole = {.corners = corners};
 	ty_status status;
 
-	if (corner_count <= SMALL_HOLE)
+	if (corner_count <= TY_SMALL_HOLE)
 	{
 		open_hole(mesh, v, &hole);
 		return fill_small_hole(mesh, &hole);

@@ -9,8 +9,8 @@
 static inline void
 ty_mesh_bond(ty_mesh *mesh, uint32_t h, uint32_t g)
 {
-	mesh->triangles[h / 3].adjacent[h % 3] = g;
-	mesh->triangles[g / 3].adjacent[g % 3] = h;
+	mesh->triangles[ty_triangle_of(h)].adjacent[ty_corner_of(h)] = g;
+	mesh->triangles[ty_triangle_of(g)].adjacent[ty_corner_of(g)] = h;
 }
 
 static inline uint32_t
@@ -48,9 +48,9 @@ ty_set_triangle(ty_mesh *mesh, uint32_t t, uint32_t a, uint32_t b, uint32_t c)
 	mesh->triangles[t].vertex[0] = a;
 	mesh->triangles[t].vertex[1] = b;
 	mesh->triangles[t].vertex[2] = c;
-	ty_set_edge(mesh, a, 3 * t);
-	ty_set_edge(mesh, b, 3 * t + 1);
-	ty_set_edge(mesh, c, 3 * t + 2);
+	ty_set_edge(mesh, a, ty_half_edge(t, 0));
+	ty_set_edge(mesh, b, ty_half_edge(t, 1));
+	ty_set_edge(mesh, c, ty_half_edge(t, 2));
 }
 
 static inline void

@@ -136,11 +136,11 @@ the_checker_sees_damage(void)
 		uint32_t h = vertex[5].edge;
 		uint32_t opposite = ty_opposite(&mesh, h);
 		ty_position before = vertex[7].position;
-		uint32_t *corner = mesh.triangles[h / 3].vertex;
+		uint32_t *corner = mesh.triangles[ty_triangle_of(h)].vertex;
 
-		mesh.triangles[h / 3].adjacent[h % 3] = ty_next_in_triangle(h);
+		mesh.triangles[ty_triangle_of(h)].adjacent[ty_corner_of(h)] = ty_next_in_triangle(h);
 		seen += ty_mesh_check(&mesh) != NULL;
-		mesh.triangles[h / 3].adjacent[h % 3] = opposite;
+		mesh.triangles[ty_triangle_of(h)].adjacent[ty_corner_of(h)] = opposite;
 		vertex[7].position = (ty_position){1 << 29, 1 << 29};
 		moved += ty_mesh_check(&mesh) != NULL;
 		vertex[7].position = before;
@@ -163,9 +163,9 @@ rename_around(ty_mesh *mesh)
 	for (uint32_t v = 3; v > 0; v--)
 		mesh->vertex[v] = mesh->vertex[v - 1];
 	mesh->vertex[0] = last;
-	for (uint32_t h = 0; h < 3 * (2 * 4 - 2); h++)
+	for (uint32_t h = 0; h < ty_half_edge(2 * 4 - 2, 0); h = ty_next_half_edge(h))
 		if (ty_origin(mesh, h) != TY_GHOST)
-			mesh->triangles[h / 3].vertex[h % 3] = (ty_origin(mesh, h) + 1) % 4;
+			mesh->triangles[ty_triangle_of(h)].vertex[ty_corner_of(h)] = (ty_origin(mesh, h) + 1) % 4;
 }
 
 /* Of a square one diagonal is in the mesh: the other one is Delaunay too, but a trace of history. */
