@@ -101,6 +101,44 @@ merge(ty_run *run, uint32_t kept, uint32_t gone, double cost)
 	return to;
 }
 
+/* Room for so many merges in all; what is there stays. */
+static ty_status
+reserve_sequence(ty_run *run, size_t merges)
+{
+	ty_sequence *s = run->sequence;
+	uint32_t *kept, *gone;
+	double *cost = NULL;
+
+	if (s->kept == NULL)
+	{
+		kept = s->kept = ty_allocate_array(run->env, merges, sizeof *kept);
+		gone = s->gone = ty_allocate_array(run->env, merges, sizeof *gone);
+		if (run->with_cost)
+			cost = s->cost = ty_allocate_array(run->env, merges, sizeof *cost);
+	}
+	else
+	{
+		if ((kept = ty_reallocate_array(run->env, s->kept, merges, sizeof *kept)) != NULL)
+			s->kept = kept;
+		if ((gone = ty_reallocate_array(run->env, s->gone, merges, sizeof *gone)) != NULL)
+			s->gone = gone;
+		if (run->with_cost && (cost = ty_reallocate_array(run->env, s->cost, merges, sizeof *cost)) != NULL)
+			s->cost = cost;
+	}
+	return kept != NULL && gone != NULL && (cost != NULL || !run->with_cost) ? TY_OK : TY_NO_MEMORY;
+}
+
+/* how many vertices share their place with one before them */
+static size_t
+count_coincident(const uint64_t *keys, size_t n)
+{
+	size_t count = 0;
+
+	for (size_t v = 1; v < n; v++)
+		count += keys[v] == keys[v - 1];
+	return count;
+}
+
 /*
  * Merges vertices that share a place from the start: each run of equal positions in turn, at cost 0, until
  * count vertices are left. Lists one vertex of every place, and its key at the front of keys.
@@ -235,18 +273,27 @@ collapse_all(ty_run *run, ty_stop stop)
 
 /* ---- set-up ---- */
 
+/* how few vertices may be left in the end */
+static size_t
+least_vertices(ty_stop stop)
+{
+	return stop.min_distance > 0 || stop.count < 1 ? 1 : stop.count;
+}
+
 /* Builds the mesh over the distinct places, after the merges at cost 0. */
 static ty_status
 prepare_mesh(ty_run *run, uint64_t *keys, ty_stop stop)
 {
 	uint32_t *distinct = ty_allocate_array(run->env, run->n, sizeof *distinct);
-	size_t least = stop.min_distance > 0 ? 1 : stop.count;
+	size_t least = least_vertices(stop);
 	size_t places;
 	ty_status status;
 
 	if (distinct == NULL)
 		return TY_NO_MEMORY;
-	status = merge_coincident(run, least, distinct, keys, &places);
+	status = reserve_sequence(run, count_coincident(keys, run->n));
+	if (status == TY_OK)
+		status = merge_coincident(run, least, distinct, keys, &places);
 	if (status == TY_OK && run->n - run->sequence->count > least)
 	{
 		status = ty_mesh_build(run->env, run->vertex, run->n, distinct, keys, places, &run->mesh);
@@ -281,7 +328,11 @@ prepare(ty_run *run, ty_stop stop)
 	if (status == TY_OK)
 		status = prepare_mesh(run, keys, stop);
 	ty_release(run->env, keys);
-	return status == TY_OK && run->mesh.env != NULL ? ty_queue_begin(run) : status;
+	if (status != TY_OK || run->mesh.env == NULL)
+		return status;
+	/* only now is there room for what the merges take: at the peak every array counts */
+	status = reserve_sequence(run, run->n - least_vertices(stop));
+	return status == TY_OK ? ty_queue_begin(run) : status;
 }
 
 /* The vertices, at their positions. The caller's positions become the rests: there is no more room for either. */
@@ -312,31 +363,23 @@ free_run(ty_run *run)
 	ty_release(run->env, run->near);
 }
 
-static ty_status
-allocate_sequence(const ty_environment *env, size_t merges, bool with_cost, ty_sequence *sequence)
-{
-	sequence->kept = ty_allocate_array(env, merges, sizeof *sequence->kept);
-	sequence->gone = ty_allocate_array(env, merges, sizeof *sequence->gone);
-	if (with_cost)
-		sequence->cost = ty_allocate_array(env, merges, sizeof *sequence->cost);
-	if (sequence->kept == NULL || sequence->gone == NULL || (with_cost && sequence->cost == NULL))
-		return TY_NO_MEMORY;
-	return TY_OK;
-}
-
 ty_status
 ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s_u, ty_stop stop, bool with_cost,
 			ty_after_merge after_merge, void *context, ty_sequence *sequence)
 {
-	size_t least = stop.min_distance > 0 || stop.count < 1 ? 1 : stop.count;
-	ty_run run = {.env = env, .n = n, .s_u = s_u, .sequence = sequence, .after_merge = after_merge, .context = context};
-	ty_status status;
+	ty_run run = {.env = env,
+				  .n = n,
+				  .s_u = s_u,
+				  .with_cost = with_cost,
+				  .sequence = sequence,
+				  .after_merge = after_merge,
+				  .context = context};
+	ty_status status = TY_OK;
 
 	*sequence = (ty_sequence){0};
 	if (n > TY_MAX_VERTICES)
 		return TY_TOO_MANY;
-	status = allocate_sequence(env, n > least ? n - least : 0, with_cost, sequence);
-	if (status == TY_OK && n > least)
+	if (n > least_vertices(stop))
 	{
 		status = allocate_run(&run, position, stop.min_distance > 0);
 		if (status == TY_OK)

@@ -19,7 +19,7 @@ typedef struct ty_stop
 
 typedef struct ty_sequence
 {
-	size_t count;	/* merges */
+	size_t count;	/* merges; where there are none the arrays may be NULL */
 	uint32_t *kept; /* [count] smaller rank of the two */
 	uint32_t *gone; /* [count] larger rank; every rank is gone at most once */
 	double *cost;	/* [count] or NULL unless asked for */

@@ -52,6 +52,7 @@ typedef struct ty_run
 	ty_queue queue;
 	uint32_t *near; /* for min_distance: vertices that may have a neighbour nearer than it; else NULL */
 	size_t near_count;
+	bool with_cost;
 	ty_sequence *sequence;
 	int64_t surplus; /* of the mesh's work, when a batch was last looked for (collapse_batch.c) */
 	ty_after_merge after_merge;
