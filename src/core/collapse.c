@@ -8,15 +8,20 @@
 /* ---- merging ---- */
 
 void
-ty_record(ty_run *run, uint32_t kept, uint32_t gone, double cost)
+ty_record(ty_run *run, uint32_t gone, double cost)
 {
 	ty_sequence *s = run->sequence;
 
-	s->kept[s->count] = kept;
 	s->gone[s->count] = gone;
 	if (s->cost != NULL)
 		s->cost[s->count] = cost;
 	s->count++;
+}
+
+void
+ty_retire(ty_run *run, uint32_t kept, uint32_t gone)
+{
+	run->vertex[gone].size = kept;
 }
 
 void
@@ -97,7 +102,7 @@ merge(ty_run *run, uint32_t kept, uint32_t gone, double cost)
 {
 	ty_position to = ty_join(run, kept, gone);
 
-	ty_record(run, kept, gone, cost);
+	ty_record(run, gone, cost);
 	return to;
 }
 
@@ -106,26 +111,35 @@ static ty_status
 reserve_sequence(ty_run *run, size_t merges)
 {
 	ty_sequence *s = run->sequence;
-	uint32_t *kept, *gone;
-	double *cost = NULL;
+	uint32_t *gone = s->gone == NULL ? ty_allocate_array(run->env, merges, sizeof *gone)
+									 : ty_reallocate_array(run->env, s->gone, merges, sizeof *gone);
+	double *cost;
 
+	if (gone == NULL)
+		return TY_NO_MEMORY;
+	s->gone = gone;
+	if (!run->with_cost)
+		return TY_OK;
+	cost = s->cost == NULL ? ty_allocate_array(run->env, merges, sizeof *cost)
+						   : ty_reallocate_array(run->env, s->cost, merges, sizeof *cost);
+	if (cost == NULL)
+		return TY_NO_MEMORY;
+	s->cost = cost;
+	return TY_OK;
+}
+
+/* Which vertex went on, of every merge. */
+static ty_status
+list_kept(ty_run *run)
+{
+	ty_sequence *s = run->sequence;
+
+	s->kept = ty_allocate_array(run->env, s->count, sizeof *s->kept);
 	if (s->kept == NULL)
-	{
-		kept = s->kept = ty_allocate_array(run->env, merges, sizeof *kept);
-		gone = s->gone = ty_allocate_array(run->env, merges, sizeof *gone);
-		if (run->with_cost)
-			cost = s->cost = ty_allocate_array(run->env, merges, sizeof *cost);
-	}
-	else
-	{
-		if ((kept = ty_reallocate_array(run->env, s->kept, merges, sizeof *kept)) != NULL)
-			s->kept = kept;
-		if ((gone = ty_reallocate_array(run->env, s->gone, merges, sizeof *gone)) != NULL)
-			s->gone = gone;
-		if (run->with_cost && (cost = ty_reallocate_array(run->env, s->cost, merges, sizeof *cost)) != NULL)
-			s->cost = cost;
-	}
-	return kept != NULL && gone != NULL && (cost != NULL || !run->with_cost) ? TY_OK : TY_NO_MEMORY;
+		return TY_NO_MEMORY;
+	for (size_t i = 0; i < s->count; i++)
+		s->kept[i] = run->vertex[s->gone[i]].size;
+	return TY_OK;
 }
 
 /* how many vertices share their place with one before them */
@@ -155,6 +169,7 @@ merge_coincident(ty_run *run, size_t count, uint32_t *distinct, uint64_t *keys, 
 		if (v > 0 && keys[places - 1] == keys[v] && run->n - run->sequence->count > count)
 		{
 			merge(run, distinct[places - 1], (uint32_t) v, 0);
+			ty_retire(run, distinct[places - 1], (uint32_t) v);
 			ty_show(run, NULL);
 			continue;
 		}
@@ -222,6 +237,7 @@ collapse_edge(ty_run *run, ty_edge e, ty_stop stop)
 	ty_position to = merge(run, kept, gone, e.cost);
 	ty_status status = ty_mesh_collapse(&run->mesh, kept, gone, to, &met);
 
+	ty_retire(run, kept, gone);
 	while (status == TY_OK && met != TY_NONE)
 	{
 		uint32_t first = ty_smaller(kept, met), second = ty_larger(kept, met);
@@ -232,6 +248,7 @@ collapse_edge(ty_run *run, ty_edge e, ty_stop stop)
 			return TY_OK;
 		to = merge(run, first, second, 0);
 		status = ty_mesh_move(&run->mesh, met, first, to, &met);
+		ty_retire(run, first, second);
 		kept = first;
 	}
 	if (status == TY_OK)
@@ -353,12 +370,20 @@ allocate_run(ty_run *run, ty_position *position, bool with_near)
 	return TY_OK;
 }
 
+/* Gives back all but the vertices. */
 static void
-free_run(ty_run *run)
+free_mesh_and_queue(ty_run *run)
 {
 	if (run->mesh.env != NULL)
 		ty_mesh_free(&run->mesh);
+	run->mesh.env = NULL;
 	ty_queue_free(run);
+}
+
+static void
+free_run(ty_run *run)
+{
+	free_mesh_and_queue(run);
 	ty_release(run->env, run->vertex);
 	ty_release(run->env, run->near);
 }
@@ -386,6 +411,9 @@ ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s
 			status = prepare(&run, stop);
 		if (status == TY_OK && run.mesh.env != NULL)
 			status = collapse_all(&run, stop);
+		free_mesh_and_queue(&run);
+		if (status == TY_OK)
+			status = list_kept(&run);
 		for (size_t v = 0; status == TY_OK && v < n; v++)
 			position[v] = run.vertex[v].position;
 		free_run(&run);

@@ -229,7 +229,8 @@ enter_batch(ty_run *run, const batch *b)
 
 	for (size_t i = 0; i < b->count; i++)
 	{
-		ty_record(run, b->kept[i], b->gone[i], b->cost[i]);
+		ty_record(run, b->gone[i], b->cost[i]);
+		ty_retire(run, b->kept[i], b->gone[i]);
 		ty_show(run, i + 1 < b->count ? NULL : &run->mesh);
 	}
 	for (size_t i = 0; i < b->count && status == TY_OK; i++)

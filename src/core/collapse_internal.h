@@ -115,7 +115,9 @@ void ty_part(ty_run *run, uint32_t kept, uint32_t gone, ty_position merged, ty_p
 /* Where ty_join would bring the two. */
 ty_position ty_merged_place(const ty_run *run, uint32_t a, uint32_t b);
 /* Records a merge that has been joined. */
-void ty_record(ty_run *run, uint32_t kept, uint32_t gone, double cost);
+void ty_record(ty_run *run, uint32_t gone, double cost);
+/* Remembers, once gone is out of the mesh, into which vertex it went: in its size, until there is room for a list. */
+void ty_retire(ty_run *run, uint32_t kept, uint32_t gone);
 /* What is left to do once a merged vertex is in the mesh. */
 ty_status ty_enter_merged(ty_run *run, uint32_t kept);
 /* For tests: shows the mesh, or NULL while it is behind the merges. */

@@ -304,6 +304,7 @@ ty_queue_free(ty_run *run)
 	ty_release(run->env, run->queue.heap);
 	ty_release(run->env, run->queue.bucket);
 	ty_release(run->env, run->queue.chunk);
+	run->queue = (ty_queue){0};
 }
 
 /* ---- the least ---- */

@@ -115,6 +115,16 @@ representative(const group *g, const uint32_t *members, size_t n)
 	return best;
 }
 
+#define AHEAD 24 /* members whose buildings are fetched before they are needed: they lie in any order */
+
+/* Fetches the buildings of as many members as the placeholder has, AHEAD of its own. */
+static inline __attribute__((always_inline)) void
+fetch_ahead(const group *g, const ty_result *result, const ty_placeholder *p, size_t n)
+{
+	for (size_t i = p->first + AHEAD; i < (size_t) p->first + p->count + AHEAD && i < n; i++)
+		__builtin_prefetch(&g->buildings[result->members[i]]);
+}
+
 /* Fills in a placeholder whose members are known. rank: the smallest of them, where the vertex is kept. */
 static ty_status
 describe(const ty_environment *env, const group *g, const uint32_t *members, uint32_t rank, ty_placeholder *p)
@@ -185,6 +195,7 @@ describe_all(const ty_environment *env, const group *g, const uint32_t *label, s
 
 		if (label[rank] != next)
 			continue;
+		fetch_ahead(g, result, p, n);
 		status = describe(env, g, result->members, (uint32_t) rank, p);
 		result->undrawn += !(p->area > 0);
 		next++;
