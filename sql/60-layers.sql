@@ -225,15 +225,15 @@ END;
 COMMENT ON FUNCTION typify_layer_is_calibrated(jsonb) IS
 'Whether a layer takes exponent or psi from LOD200: there is one, and options do not give both.';
 
-CREATE FUNCTION typify_layer_source(definition jsonb) RETURNS text
+CREATE FUNCTION typify_layer_source(definition jsonb, groups text[] DEFAULT NULL) RETURNS text
 LANGUAGE sql STABLE PARALLEL SAFE
 BEGIN ATOMIC
 	SELECT typify_lod25_source((definition->>'lod25')::regclass, (definition->>'id_column')::name,
-		(definition->>'geom_column')::name, (definition->>'group_by')::name, (definition->>'links')::regclass);
+		(definition->>'geom_column')::name, (definition->>'group_by')::name, (definition->>'links')::regclass, groups);
 END;
 
-COMMENT ON FUNCTION typify_layer_source(jsonb) IS
-'The sub-select of the buildings from which a layer is derived (see typify_lod25_source).';
+COMMENT ON FUNCTION typify_layer_source(jsonb, text[]) IS
+'The sub-select of the buildings from which a layer is derived, at least of these groups (see typify_lod25_source).';
 
 CREATE FUNCTION typify_layer_shares(definition jsonb) RETURNS jsonb
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
@@ -569,7 +569,7 @@ BEGIN
 	) AS listed ON key = typify_group_key(one.grp)
 	CROSS JOIN LATERAL (SELECT coalesce(own, calibration->'overall') AS fit) AS fits;
 	RETURN QUERY
-	SELECT p.*, g.grp FROM typify_each_group(typify_layer_source(definition), (definition->>'scale')::float8,
+	SELECT p.*, g.grp FROM typify_each_group(typify_layer_source(definition, groups), (definition->>'scale')::float8,
 		(definition->>'s_u')::float8, given, true) AS g, unnest(g.list) AS p;
 END
 $$;
@@ -613,8 +613,8 @@ $$;
 
 COMMENT ON FUNCTION typify_layer_complete(regclass) IS 'The end of typify_build_scale: the layer is one like any other.';
 
--- A procedure that commits cannot set a search_path: everything here names its schema. The calls before the first
--- COMMIT leave nothing behind when they fail.
+-- A procedure that commits cannot set a search_path, so it asks where typify is. What comes before the first COMMIT
+-- leaves nothing behind when it fails.
 CREATE PROCEDURE typify_build_scale(
 	name text,
 	lod25 regclass,
@@ -633,20 +633,25 @@ CREATE PROCEDURE typify_build_scale(
 LANGUAGE plpgsql AS
 $$
 DECLARE
-	layer pg_catalog.regclass := @extschema@.typify_layer_begin(pg_catalog.current_schema(), name,
-		@extschema@.typify_layer_definition(lod25, lod200, scale, s_u, group_by, options, allocation, id_column,
-			geom_column, lod200_geom_column, lod200_group_by, links), batch);
-	groups pg_catalog.text[] := @extschema@.typify_layer_groups(layer);
-	number pg_catalog.int4 := pg_catalog.cardinality(groups);
-	done pg_catalog.int4 := 0;
+	typify text := extnamespace::regnamespace FROM pg_catalog.pg_extension WHERE extname = 'typify';
+	layer regclass;
+	groups text[];
+	number integer;
+	done integer := 0;
 BEGIN
+	EXECUTE format('SELECT %1$s.typify_layer_begin(current_schema(), $1, %1$s.typify_layer_definition($2, $3, $4, $5, $6, '
+		'$7, $8, $9, $10, $11, $12, $13), $14)', typify)
+	INTO layer USING name, lod25, lod200, scale, s_u, group_by, options, allocation, id_column, geom_column,
+		lod200_geom_column, lod200_group_by, links, batch;
+	EXECUTE format('SELECT %s.typify_layer_groups($1)', typify) INTO groups USING layer;
+	number := cardinality(groups);
 	WHILE done < number LOOP
-		PERFORM @extschema@.typify_layer_build(layer, groups[done + 1 : done + batch]);
+		EXECUTE format('SELECT %s.typify_layer_build($1, $2)', typify) USING layer, groups[done + 1 : least(done + batch::bigint, number)];
 		COMMIT;
-		done := least(done + batch, number);
-		RAISE NOTICE '% of % groups (% %%)', done, number, 100 * done / number;
+		done := least(done + batch::bigint, number);
+		RAISE NOTICE '% of % groups (% %%)', done, number, 100::bigint * done / number;
 	END LOOP;
-	PERFORM @extschema@.typify_layer_complete(layer);
+	EXECUTE format('SELECT %s.typify_layer_complete($1)', typify) USING layer;
 	COMMIT;
 END
 $$;
