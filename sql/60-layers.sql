@@ -113,7 +113,8 @@ BEGIN
 		RETURN definition;
 	END IF;
 	RAISE EXCEPTION '% is not a layer of typify', name USING ERRCODE = 'wrong_object_type',
-		HINT = 'Layers are made by typify_create_scale or typify_build_scale; the JSON in their comment says how they are derived and must stay.';
+		HINT = 'Layers are made by typify_create_scale or typify_build_scale; the JSON in their comment '
+			'says how they are derived and must stay.';
 END
 $$;
 
@@ -179,7 +180,8 @@ SET search_path FROM CURRENT AS
 $$
 BEGIN
 	EXECUTE format('CREATE TABLE %s (id bigint PRIMARY KEY, geom %s, member_count integer NOT NULL, '
-		'members bigint[] NOT NULL, area float8, width float8, length float8, orientation float8, grp text)', layer, geom_type);
+		'members bigint[] NOT NULL, area float8, width float8, length float8, orientation float8, grp text)',
+		layer, geom_type);
 	EXECUTE format('CREATE INDEX ON %s (grp)', layer);
 	EXECUTE format('COMMENT ON TABLE %s IS %L', layer, definition);
 	RETURN layer::regclass;
@@ -245,8 +247,8 @@ DECLARE
 BEGIN
 	EXECUTE 'SELECT jsonb_agg(jsonb_build_array(grp, number, area) ORDER BY grp COLLATE "C") FROM ('
 		'SELECT grp, count(*) AS number, sum(ST_Area(geom)::numeric) AS area FROM '
-		|| typify_lod200_groups(typify_layer_source(definition), (definition->>'lod200')::regclass, (definition->>'id_column')::name,
-			(definition->>'lod200_geom_column')::name, (definition->>'group_by')::name,
+		|| typify_lod200_groups(typify_layer_source(definition), (definition->>'lod200')::regclass,
+			(definition->>'id_column')::name, (definition->>'lod200_geom_column')::name, (definition->>'group_by')::name,
 			(definition->>'lod200_group_by')::name, (definition->>'links')::regclass)
 		|| ' AS lod200 GROUP BY grp) AS share' INTO shares;
 	RETURN coalesce(shares, '[]');
@@ -414,7 +416,8 @@ BEGIN
 		PERFORM typify_refuse_null('concurrently');
 	END IF;
 	IF (SELECT relkind = 'm' FROM pg_class WHERE oid = name) THEN
-		EXECUTE format('REFRESH MATERIALIZED VIEW %s %s', CASE WHEN typify_refresh_scale.concurrently THEN 'CONCURRENTLY' ELSE '' END, layer);
+		EXECUTE format('REFRESH MATERIALIZED VIEW %s %s',
+			CASE WHEN typify_refresh_scale.concurrently THEN 'CONCURRENTLY' ELSE '' END, layer);
 	ELSIF typify_refresh_scale.concurrently THEN
 		RAISE EXCEPTION '% is a table, which is not refreshed concurrently', layer
 			USING ERRCODE = 'wrong_object_type',
@@ -463,6 +466,9 @@ BEGIN
 				OR coalesce(new.number, 0) NOT BETWEEN 1 AND n25 OR new.area = 0', layer) INTO moved USING before, now;
 		groups := CASE WHEN before IS NOT NULL THEN groups || moved END;
 		PERFORM typify_layer_keep_shares(name, jsonb_build_object('lod200', now));
+	ELSE
+		-- nothing is taken from LOD200, so it need not be read
+		definition := definition || '{"lod200": null, "lod200_group_by": null}';
 	END IF;
 	RETURN typify_layer_replace(name, groups, typify_layer_call(definition, 'typify_derive', ', groups => $1'));
 END
@@ -646,7 +652,8 @@ BEGIN
 	EXECUTE format('SELECT %s.typify_layer_groups($1)', typify) INTO groups USING layer;
 	number := cardinality(groups);
 	WHILE done < number LOOP
-		EXECUTE format('SELECT %s.typify_layer_build($1, $2)', typify) USING layer, groups[done + 1 : least(done + batch::bigint, number)];
+		EXECUTE format('SELECT %s.typify_layer_build($1, $2)', typify)
+			USING layer, groups[done + 1 : least(done + batch::bigint, number)];
 		COMMIT;
 		done := least(done + batch::bigint, number);
 		RAISE NOTICE '% of % groups (% %%)', done, number, 100::bigint * done / number;

@@ -41,15 +41,16 @@ done_groups() { query -c 'SELECT count(DISTINCT grp) FROM layer'; }
 # build BATCH GROUPS SECONDS [OPTIONS]: in the background; its words go to $scratch/words
 build() {
 	PGAPPNAME=build PGOPTIONS="-c typify_test.groups=$2 -c typify_test.seconds=$3 ${4-}" psql -qX -v ON_ERROR_STOP=1 \
-		-v VERBOSITY=verbose -c "CALL typify_build_scale('layer', $arguments, batch => $1)" >"$scratch/words" 2>&1 </dev/null &
+		-v VERBOSITY=verbose -c "CALL typify_build_scale('layer', $arguments, batch => $1)" \
+		>"$scratch/words" 2>&1 </dev/null &
 }
 # stop FUNCTION: calls it on the backend that builds as soon as that sleeps
 stop() {
+	local stopped
 	for ((i = 0; i < 300; i++)); do
-		if [ "$(query -c "SELECT $1(pid) FROM pg_stat_activity WHERE application_name = 'build' AND wait_event = 'PgSleep'")" ]
-		then
-			break
-		fi
+		stopped=$(query -c "SELECT $1(pid) FROM pg_stat_activity
+			WHERE application_name = 'build' AND wait_event = 'PgSleep'")
+		if [ "$stopped" ]; then break; fi
 		sleep 0.1
 	done
 	wait || true
@@ -59,7 +60,8 @@ unfinished() { query -c "SELECT obj_description('layer'::regclass)::jsonb->'fini
 
 build 1 5 60
 stop pg_cancel_backend
-check "cancelled: $(grep -o 'ERROR:  57014' "$scratch/words"), $(done_groups) of $groups groups are there" "$(unfinished 5)"
+check "cancelled: $(grep -o 'ERROR:  57014' "$scratch/words"), $(done_groups) of $groups groups are there" \
+	"$(unfinished 5)"
 build 5 20 60 '-c statement_timeout=5s'
 wait || true
 check "timed out: $(grep -o 'ERROR:  57014' "$scratch/words"), $(done_groups) are there" "$(unfinished 20)"
@@ -79,6 +81,7 @@ check "gone on with, by two at the same time, the other at last $(
 check "finished" "$(query -c "SELECT NOT obj_description('layer'::regclass)::jsonb ? 'finished'")"
 check "row for row what typify_create_scale makes" "$(query -c "SELECT count(*) = 0 FROM
 	((TABLE layer EXCEPT ALL TABLE whole) UNION ALL (TABLE whole EXCEPT ALL TABLE layer)) AS d")"
-check "the same comment and what it remembers" "$(query -c "SELECT obj_description('layer'::regclass) = obj_description('whole'::regclass)
+check "the same comment and what it remembers" "$(query -c "SELECT
+	obj_description('layer'::regclass) = obj_description('whole'::regclass)
 	AND obj_description('layer_grp_idx'::regclass) = obj_description('whole_grp_idx'::regclass)")"
 exit $failed

@@ -54,7 +54,8 @@ story() {
 $path;
 SELECT format('%s %s rows %s', relation, count(*), md5(string_agg(line, ';' ORDER BY line)))
 FROM (
-	SELECT 'A layer' AS relation, l::text AS line FROM "A layer" AS l UNION ALL SELECT 'a_of_links', l::text FROM a_of_links AS l
+	SELECT 'A layer' AS relation, l::text AS line FROM "A layer" AS l
+	UNION ALL SELECT 'a_of_links', l::text FROM a_of_links AS l
 	UNION ALL SELECT 'a_of_a_view', l::text FROM a_of_a_view AS l UNION ALL SELECT 'a_table', l::text FROM a_table AS l
 	UNION ALL SELECT 'spots', l::text FROM spots AS l
 ) AS lines GROUP BY relation ORDER BY relation;
@@ -63,8 +64,10 @@ SELECT format('%s: %s', relname, obj_description(oid, 'pg_class')) FROM pg_class
 WHERE obj_description(oid, 'pg_class') IS NOT NULL AND relnamespace = 'maps'::regnamespace ORDER BY 1;
 SELECT indexdef FROM pg_indexes WHERE schemaname = 'maps' ORDER BY 1;
 SET enable_seqscan = off;
-SELECT 'found by index', count(*) FROM spots WHERE typify_rectangle(geom, 100, 0.5, 30) && ST_MakeEnvelope(613000, 5487000, 614000, 5488000, 25832);
-SELECT 'found by index', count(*) FROM spots WHERE typify_count(number, 75000, typify_options(exponent => 1)) = 577;
+SELECT 'found by index', count(*) FROM spots
+WHERE typify_rectangle(geom, 100, 0.5, 30) && ST_MakeEnvelope(613000, 5487000, 614000, 5488000, 25832);
+SELECT 'found by index', count(*) FROM spots
+WHERE typify_count(number, 75000, typify_options(exponent => 1)) = 577;
 SQL
 }
 story $database >"$scratch/before"
@@ -89,11 +92,12 @@ restored() {
 		-c "SELECT typify_refresh_scale('\"A layer\"', true), typify_refresh_scale('a_of_links')" \
 		-c "SELECT typify_refresh_groups('a_table', '{1}')"
 	story ${database}_copy >"$scratch/after"
-	if ! diff "$scratch/before" "$scratch/after"; then echo "failed: $how, then refreshed: other rows"; failed=1; return; fi
+	if ! diff "$scratch/before" "$scratch/after"; then echo "failed: $how, refreshed: other rows"; failed=1; return; fi
 	echo "ok: $how, and refreshed there"
 }
 export database scratch
-restored "plain dump" bash -c 'set -o pipefail; pg_dump $database | psql -qX -v ON_ERROR_STOP=1 -o /dev/null -d ${database}_copy'
+restored "plain dump" bash -c 'set -o pipefail
+	pg_dump $database | psql -qX -v ON_ERROR_STOP=1 -o /dev/null -d ${database}_copy'
 pg_dump -Fc -f "$scratch/dump" $database
 restored "custom format" pg_restore --exit-on-error -d ${database}_copy "$scratch/dump"
 restored "custom format, two jobs" pg_restore --exit-on-error -j 2 -d ${database}_copy "$scratch/dump"
