@@ -15,7 +15,10 @@ awk '/^```sql$/ { inside = 1; next } /^```$/ { inside = 0 } inside' README.md | 
 createdb $database
 export PGDATABASE=$database PGOPTIONS='-c client_min_messages=warning'
 psql -qX -v ON_ERROR_STOP=1 -o /dev/null -c 'CREATE EXTENSION typify CASCADE' -f tests/data/settlement.sql \
-	-c 'CREATE TABLE buildings AS SELECT * FROM settlement_buildings' -c 'CREATE TABLE lod25 AS TABLE buildings'
+	-c 'CREATE TABLE buildings AS SELECT * FROM settlement_buildings' -c 'CREATE TABLE lod25 AS TABLE buildings' \
+	-c 'CREATE TABLE roads AS TABLE settlement_roads' \
+	-c 'CREATE TABLE lod200 AS SELECT (p).id, (p).geom
+		FROM (SELECT unnest(typify_placeholders(geom, id, 200000)) AS p FROM buildings) t'
 psql -qX -v ON_ERROR_STOP=1 -o /dev/null -f "$queries"
 drawn=$(psql -qXAt -c 'SELECT count(*) FROM buildings75 WHERE ST_IsValid(geom)')
 expected=$(psql -qXAt -c 'SELECT sum(n) FROM (SELECT typify_count(count(*), 75000) n FROM buildings GROUP BY block) t')
