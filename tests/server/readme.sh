@@ -16,6 +16,7 @@ createdb $database
 export PGDATABASE=$database PGOPTIONS='-c client_min_messages=warning'
 psql -qX -v ON_ERROR_STOP=1 -o /dev/null -c 'CREATE EXTENSION typify CASCADE' -f tests/data/settlement.sql \
 	-c 'CREATE TABLE buildings AS SELECT * FROM settlement_buildings' -c 'CREATE TABLE lod25 AS TABLE buildings' \
+	-c 'CREATE TABLE roads AS TABLE settlement_roads' \
 	-c 'CREATE TABLE lod200 AS SELECT id, ST_Buffer(geom, 8) AS geom FROM buildings WHERE ST_Area(geom) > 250'
 psql -qX -v ON_ERROR_STOP=1 -o /dev/null -f "$queries"
 drawn=$(psql -qXAt -c 'SELECT count(*) FROM buildings75 WHERE ST_IsValid(geom)')
