@@ -7,7 +7,7 @@
  *
  * N 0 takes all points of a file. A SET is a name that points.c knows, or NAME=FILE of points. FILE lines are what
  * the server's benchmark exports. FIGURES is all, or brief: neither GEOS nor the full hierarchy. Prints
- * "set <tab> figure <tab> value" with values in seconds or bytes, a line a run; report.awk makes tables of them.
+ * "set <tab> figure <tab> value" with values in seconds of the processor's time or bytes, a line a run; report.awk makes tables of them.
  */
 #include "clock.h"
 #include "collapse.h"

@@ -5,7 +5,8 @@
 # LARGE        not empty: 10 and 30 million buildings too
 # SETS         which data sets: of real towns uniform jittered_grid
 # TYPIFY_DATA  folder with leipzig_2017; where it is missing the real data set is left out
-# RESULTS      file for "set <tab> figure <tab> value", a line a run: seconds, or kilobytes where the figure says so
+# RESULTS      file for "set <tab> figure <tab> value", a line a run: seconds that passed, "... cpu" on the processor, or
+#              "... kB" at the peak
 # CORE         the core's benchmark (tests/bench/build/core)
 # PLAN         file for the plan of the two workers
 
@@ -72,6 +73,9 @@ make_parts() { # make_parts SET
 
 query_of() { echo "${STATEMENT[$2]//@/bench_$1}"; } # query_of SET STATEMENT
 
+# nanoseconds that this process has been on a processor
+CPU="SELECT 'cpu ' || split_part(pg_read_file('/proc/self/schedstat'), ' ', 1);"
+
 # one_run SET STATEMENT: in a backend of its own, whose libraries are loaded by then
 one_run() {
 	local answer
@@ -79,13 +83,17 @@ one_run() {
 		SET jit = off; SET max_parallel_workers_per_gather = 0; ${SETTINGS[$2]:-}
 		SELECT typify(geom, 75000), typify_placeholders(geom, 1, 75000), ST_OrientedEnvelope(geom),
 			ST_DelaunayTriangles(geom) FROM (SELECT ST_MakeEnvelope(0, 0, 1, 1) AS geom) t GROUP BY geom \g /dev/null
+		$CPU
 		\timing on
 		$(query_of "$1" "$2") \g /dev/null
 		\timing off
+		$CPU
 		SELECT 'peak ' || substring(pg_read_file('/proc/self/status') FROM 'VmHWM:\s+(\d+) kB');
 	SQL
 	)
 	awk -v set="$1" -v figure="$2" -v OFS='\t' '
+		$1 == "cpu" && before != "" { print set, figure " cpu", ($2 - before) / 1e9 }
+		$1 == "cpu" { before = $2 }
 		$1 == "Time:" { print set, figure, $2 / 1000 }
 		$1 == "peak" { print set, figure " kB", $2 }' <<<"$answer" >>"$RESULTS"
 }
