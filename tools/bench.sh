@@ -82,7 +82,6 @@ else
 fi
 echo "core: shapes that are known to hurt" >&2
 "$CORE" shapes 100000 "$RUNS" >>"$RESULTS"
-printf 'shapes\tn\t100000\n' >>"$RESULTS"
 echo "core: instructions" >&2
 tests/bench/instructions.sh "$CORE" 100000 uniform towns "jittered grid" >>"$RESULTS"
 

@@ -14,9 +14,8 @@
 #define FRACTAL_LEVELS 9 /* 4^9 points, and then copies */
 
 const char *const usual_sets[] = {"uniform", "towns", "jittered grid", NULL};
-const char *const adversarial_sets[] = {"uniform",	 "hub",		 "ring",		 "two lines", "spiral",
-										"one point", "twin row", "slanted line", "fractal",	  "wide fractal",
-										"lattice",	 NULL};
+const char *const adversarial_sets[] = {"uniform",	"hub",			"ring",	   "two lines",	   "spiral",  "one point",
+										"twin row", "slanted line", "fractal", "wide fractal", "lattice", NULL};
 
 static double
 side_of(size_t n)
