@@ -51,10 +51,11 @@ $(DATA_built): $(sort $(wildcard sql/[0-9]*.sql)) typify.control
 clean: clean-tests
 .PHONY: clean-tests
 clean-tests:
-	@for dir in tests/unit tests/fuzz; do if [ -f $$dir/Makefile ]; then $(MAKE) -s -C $$dir clean; fi; done
+	@for dir in tests/unit tests/fuzz tests/bench; do if [ -f $$dir/Makefile ]; then $(MAKE) -s -C $$dir clean; fi; done
 
-.PHONY: demo test fuzz help
-# make hands on what it is given: DATA, ROADS, OSM, ATTRIBUTION, OUT, PGVERSION, TYPIFY_DATA
+.PHONY: demo test fuzz bench bench-core help
+# make hands on what it is given: DATA, ROADS, OSM, ATTRIBUTION, OUT, PGVERSION, TYPIFY_DATA, N, RUNS, LARGE,
+# SETS, RESULTS_OUT
 export DATA
 demo: override DATA := $(DEMO_DATA)
 demo:
@@ -63,6 +64,10 @@ test:
 	@tools/test.sh
 fuzz:
 	@SECONDS_EACH='$(or $(SECONDS),60)' tools/fuzz.sh
+bench:
+	@tools/bench.sh
+bench-core:
+	@tools/bench.sh core
 
 help:
 	@echo "make                  build for the server of PG_CONFIG (default: pg_config)"
@@ -75,5 +80,7 @@ help:
 	@echo "  OUT=folder          ... pictures elsewhere"
 	@echo "make test             every test, in a throw-away server"
 	@echo "make fuzz             both fuzz targets, SECONDS=60 each"
+	@echo "make bench            ours beside PostGIS's own, a table in doc/benchmarks.md; N=100000 RUNS=5 LARGE=1 OUT=file"
+	@echo "make bench-core       the core alone, without a server; N= RUNS= OUT="
 	@echo "make clean            remove what was built"
-	@echo "demo, test and fuzz install missing Debian packages (as root or with sudo) and take PGVERSION=15."
+	@echo "demo, test, fuzz and bench install missing Debian packages (as root or with sudo) and take PGVERSION=15."

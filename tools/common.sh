@@ -72,6 +72,7 @@ packaged_version() { apt-cache depends postgresql 2>/dev/null | sed -n 's/.*Depe
 PICTURE_PACKAGES="librsvg2-bin fonts-dejavu-core"
 FUZZ_PACKAGES="gcc libc6-dev clang libclang-rt-dev"
 TEST_PACKAGES="$FUZZ_PACKAGES libgmp-dev python3-scipy"
+BENCH_PACKAGES="libgeos-dev valgrind"
 
 missing_packages() {
 	local package
