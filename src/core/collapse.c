@@ -188,25 +188,50 @@ merge_coincident(ty_run *run, size_t count, uint32_t *distinct, uint64_t *keys, 
  * again unless a new vertex appears, which is then looked at itself.
  */
 static bool
+is_too_near(const ty_run *run, uint32_t v, double min_distance)
+{
+	uint32_t first = run->vertex[v].edge, h = first;
+
+	if (first == TY_NONE || run->mesh.live < 2)
+		return false;
+	do
+	{
+		uint32_t w = ty_target(&run->mesh, h);
+
+		if (w != TY_GHOST &&
+			sqrt((double) ty_squared_distance(run->vertex[v].position, run->vertex[w].position)) < min_distance)
+			return true;
+	} while ((h = ty_next_around(&run->mesh, h)) != first);
+	return false;
+}
+
+static bool
 too_near(ty_run *run, double min_distance)
 {
-	while (run->near_count > 0)
-	{
-		uint32_t v = run->near[run->near_count - 1];
-		uint32_t first = run->vertex[v].edge, h = first;
-
-		if (first != TY_NONE && run->mesh.live > 1)
-			do
-			{
-				uint32_t w = ty_target(&run->mesh, h);
-
-				if (w != TY_GHOST &&
-					sqrt((double) ty_squared_distance(run->vertex[v].position, run->vertex[w].position)) < min_distance)
-					return true;
-			} while ((h = ty_next_around(&run->mesh, h)) != first);
-		run->near_count--;
-	}
+	for (; run->near_count > 0; run->near_count--)
+		if (is_too_near(run, run->near[run->near_count - 1], min_distance))
+			return true;
+	for (; run->near_first < run->n; run->near_first++)
+		if (is_too_near(run, (uint32_t) run->near_first, min_distance))
+			return true;
 	return false;
+}
+
+static ty_status
+push_near(ty_run *run, uint32_t v)
+{
+	if (run->near_count == run->near_capacity)
+	{
+		size_t capacity = 2 * run->near_capacity;
+		uint32_t *near = ty_reallocate_array(run->env, run->near, capacity, sizeof *near);
+
+		if (near == NULL)
+			return TY_NO_MEMORY;
+		run->near = near;
+		run->near_capacity = capacity;
+	}
+	run->near[run->near_count++] = v;
+	return TY_OK;
 }
 
 /* ---- the loop ---- */
@@ -221,8 +246,8 @@ goes_on(ty_run *run, ty_stop stop)
 ty_status
 ty_enter_merged(ty_run *run, uint32_t kept)
 {
-	if (run->near != NULL)
-		run->near[run->near_count++] = kept;
+	if (run->near != NULL && push_near(run, kept) != TY_OK)
+		return TY_NO_MEMORY;
 	return run->status == TY_OK ? ty_queue_set(run, ty_least_edge(run, kept)) : run->status;
 }
 
@@ -262,10 +287,9 @@ next_merges(ty_run *run, ty_stop stop, bool *done)
 {
 	size_t merges = run->sequence->count;
 	ty_edge least;
-	ty_status status = TY_OK;
+	ty_status status;
 
-	if (run->n - merges > stop.count)
-		status = ty_collapse_batch(run, run->n - merges - stop.count);
+	status = ty_collapse_batch(run, run->n - merges > stop.count ? run->n - merges - stop.count : 0, stop.min_distance);
 	if (status != TY_OK || run->sequence->count > merges)
 		return status;
 	status = ty_queue_least(run, &least);
@@ -316,8 +340,6 @@ prepare_mesh(ty_run *run, uint64_t *keys, ty_stop stop)
 		status = ty_mesh_build(run->env, run->vertex, run->n, distinct, keys, places, &run->mesh);
 		run->mesh.edge_made = ty_cover_edge;
 		run->mesh.edge_context = run;
-		for (size_t i = 0; status == TY_OK && run->near != NULL && i < places; i++)
-			run->near[run->near_count++] = distinct[i];
 	}
 	ty_release(run->env, distinct);
 	return status;
@@ -358,8 +380,9 @@ allocate_run(ty_run *run, ty_position *position, bool with_near)
 {
 	run->rest = position;
 	run->vertex = ty_allocate_array(run->env, run->n, sizeof *run->vertex);
+	run->near_capacity = 64;
 	if (with_near)
-		run->near = ty_allocate_array(run->env, 2 * run->n, sizeof *run->near);
+		run->near = ty_allocate_array(run->env, run->near_capacity, sizeof *run->near);
 	if (run->vertex == NULL || (with_near && run->near == NULL))
 		return TY_NO_MEMORY;
 	for (size_t v = 0; v < run->n; v++)

@@ -189,9 +189,12 @@ put_back(ty_run *run, batch *b, size_t first)
 	return status;
 }
 
-/* Keeps of the batch what (1) holds for, and of that at most `most`; nothing if it is too little to pay. */
+/*
+ * Keeps of the batch what (1) holds for, and of that at most `most`, or as many as are shorter than min_distance: while
+ * the next pair is so, merging goes on. Nothing if it is too little to pay.
+ */
 static ty_status
-trim(ty_run *run, size_t most, batch *b)
+trim(ty_run *run, size_t most, double min_distance, batch *b)
 {
 	double shortest = b->count >= TY_LEAST_BATCH ? shortest_outside(run) : 0;
 	size_t count = b->count;
@@ -202,6 +205,8 @@ trim(ty_run *run, size_t most, batch *b)
 		shortest = fmin(shortest, length(run, b->kept[count], b->gone[count])); /* it is outside now */
 	}
 	count = count < TY_LEAST_BATCH ? 0 : count;
+	while (most < count && length(run, b->kept[most], b->gone[most]) < min_distance)
+		most++;
 	return put_back(run, b, count < most ? count : most);
 }
 
@@ -253,7 +258,7 @@ merge_batch(ty_run *run, batch *b)
 }
 
 ty_status
-ty_collapse_batch(ty_run *run, size_t most)
+ty_collapse_batch(ty_run *run, size_t most, double min_distance)
 {
 	batch b = {0};
 	ty_status status;
@@ -264,7 +269,7 @@ ty_collapse_batch(ty_run *run, size_t most)
 	if (status == TY_OK)
 		status = gather(run, &b);
 	if (status == TY_OK)
-		status = trim(run, most, &b);
+		status = trim(run, most, min_distance, &b);
 	if (status == TY_OK && b.count > 0)
 		status = merge_batch(run, &b);
 	run->surplus = surplus(run);

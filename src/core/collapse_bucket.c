@@ -8,6 +8,9 @@
  */
 #include "collapse_internal.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 /*
  * Vertices a bucket, about, when costs spread over two octaves: few enough for their stars (some 2 kB each) to stay
  * in the second-level cache until they are collapsed. Tests set it.
@@ -17,9 +20,17 @@
 #endif
 #define OCTAVES 63 /* costs are below 2^30.5 cells * 2^31 */
 
-#define ABREAST \
-	24 /* walks side by side: more than the memory requests a core has under way at a time (measured: 16 to 48) */
+/* Walks side by side: more than the memory requests that a core has under way at a time (measured: 16 to 48). */
+#define ABREAST 24
 #define STEPS 16 /* a walk goes no farther: most stars have 6 corners */
+
+/*
+ * Where all distances are alike one bucket holds nearly all vertices, and a heap of them would take as much memory as
+ * half a mesh. Such a bucket is emptied in parts: its least entries, up to a limit that a sample of it gives.
+ */
+#define GIANT(n) ((n) / 4)
+#define PART(n) ((n) / 8)
+#define SAMPLE 256
 
 /* ---- buckets ---- */
 
@@ -35,13 +46,14 @@ ty_bucket_begin(ty_run *run)
 	queue->buckets = (uint32_t) OCTAVES << digits;
 	queue->next = 0;
 	queue->free_chunk = TY_NONE;
-	queue->chunk_capacity = run->n / 8 + queue->buckets / 8;
+	queue->limit = (ty_edge){0, 0, 0};
+	queue->chunk_capacity = run->n / 14 + 64;
 	queue->bucket = ty_allocate_array(run->env, queue->buckets, sizeof *queue->bucket);
 	queue->chunk = ty_allocate_array(run->env, queue->chunk_capacity, sizeof *queue->chunk);
 	if (queue->bucket == NULL || queue->chunk == NULL)
 		return TY_NO_MEMORY;
 	for (uint32_t b = 0; b < queue->buckets; b++)
-		queue->bucket[b] = (ty_bucket){TY_NONE, TY_CHUNK_VERTICES};
+		queue->bucket[b] = (ty_bucket){TY_NONE, 0};
 	return TY_OK;
 }
 
@@ -58,7 +70,7 @@ take_chunk(ty_run *run, uint32_t next)
 	{
 		if (queue->used_chunks == queue->chunk_capacity)
 		{
-			size_t capacity = queue->chunk_capacity + queue->chunk_capacity / 4 + 1;
+			size_t capacity = queue->chunk_capacity + queue->chunk_capacity / 16 + 1;
 			ty_chunk *chunk = ty_reallocate_array(run->env, queue->chunk, capacity, sizeof *chunk);
 
 			if (chunk == NULL)
@@ -77,16 +89,30 @@ ty_bucket_add(ty_run *run, uint32_t v)
 {
 	ty_bucket *b = &run->queue.bucket[ty_bucket_of(&run->queue, run->queue.key[v])];
 
-	if (b->count == TY_CHUNK_VERTICES)
+	if (b->count % TY_CHUNK_VERTICES == 0)
 	{
 		uint32_t c = take_chunk(run, b->first);
 
 		if (c == TY_NONE)
 			return TY_NO_MEMORY;
-		*b = (ty_bucket){c, 0};
+		b->first = c;
 	}
-	run->queue.chunk[b->first].vertex[b->count++] = v;
+	run->queue.chunk[b->first].vertex[b->count++ % TY_CHUNK_VERTICES] = v;
 	return TY_OK;
+}
+
+/* how many vertices the first chunk of a bucket holds */
+static uint32_t
+first_count(const ty_bucket *bucket)
+{
+	return bucket->count == 0 ? 0 : (bucket->count - 1) % TY_CHUNK_VERTICES + 1;
+}
+
+/* whether a vertex that waits in bucket b is still there, with that key */
+static bool
+is_waiting(const ty_run *run, uint32_t v, uint32_t b)
+{
+	return run->vertex[v].edge != TY_NONE && ty_bucket_of(&run->queue, run->queue.key[v]) == b;
 }
 
 /* ---- fetching stars side by side ---- */
@@ -167,7 +193,7 @@ look_again(ty_run *run, lookout *looked)
 		ty_edge least = ty_least_edge(run, looked->vertex[i]);
 
 		status = ty_queue_set(run, least);
-		if (least.other != TY_NONE && ty_bucket_of(&run->queue, run->queue.key[least.owner]) < run->queue.next)
+		if (least.other != TY_NONE && ty_is_near(&run->queue, least))
 			other[others++] = least.other;
 	}
 	fetch_stars(run, other, others);
@@ -190,7 +216,7 @@ drain_chunk(ty_run *run, uint32_t b, const ty_chunk *chunk, uint32_t vertices, l
 	{
 		uint32_t v = chunk->vertex[i];
 
-		if (run->vertex[v].edge == TY_NONE || ty_bucket_of(&run->queue, run->queue.key[v]) != b)
+		if (!is_waiting(run, v, b))
 			continue;
 		looked->vertex[looked->count++] = v;
 		if (looked->count == ABREAST)
@@ -199,11 +225,63 @@ drain_chunk(ty_run *run, uint32_t b, const ty_chunk *chunk, uint32_t vertices, l
 	return status;
 }
 
+/* ---- limits ---- */
+
+static int
+compare_edges(const void *a, const void *b)
+{
+	const ty_edge *e = a, *f = b;
+
+	return ty_before(*f, *e) - ty_before(*e, *f);
+}
+
+/* the upper end of bucket b: above all its entries, not above any of the next one's */
+static ty_edge
+end_of_bucket(const ty_queue *queue, uint32_t b)
+{
+	uint32_t bits = 0x3f800000 + ((b + 1) << queue->shift);
+	float end;
+
+	memcpy(&end, &bits, sizeof end);
+	return (ty_edge){end, 0, TY_NONE};
+}
+
+/*
+ * The limit below which about PART of the vertices of bucket b lie, between its ends and not below the limit so far;
+ * the upper end where that cannot be found out. (While a batch is gathered there may be edges below a bucket.)
+ */
+static ty_edge
+limit_of_part(const ty_run *run, uint32_t b)
+{
+	const ty_queue *queue = &run->queue;
+	ty_edge begin = end_of_bucket(queue, b - 1), end = end_of_bucket(queue, b), part;
+	ty_edge sample[SAMPLE];
+	size_t samples = 0, met = 0;
+	size_t every = queue->bucket[b].count / SAMPLE + 1;
+
+	for (uint32_t c = queue->bucket[b].first, i = first_count(&queue->bucket[b]); c != TY_NONE;
+		 c = queue->chunk[c].next, i = TY_CHUNK_VERTICES)
+		while (i-- > 0)
+		{
+			uint32_t v = queue->chunk[c].vertex[i];
+
+			if (met++ % every == 0 && is_waiting(run, v, b))
+				sample[samples++] = ty_least_edge(run, v);
+		}
+	if (samples == 0)
+		return end;
+	qsort(sample, samples, sizeof *sample, compare_edges);
+	part = sample[samples * PART(run->n) / queue->bucket[b].count];
+	begin = ty_before(begin, queue->limit) ? queue->limit : begin;
+	part = ty_before(part, begin) ? begin : part;
+	return ty_before(part, end) ? part : end;
+}
+
 ty_status
 ty_bucket_drain(ty_run *run, bool *found)
 {
 	ty_queue *queue = &run->queue;
-	uint32_t b = queue->next;
+	uint32_t b = queue->next, vertices;
 	ty_bucket bucket;
 	lookout looked = {.count = 0};
 	ty_status status = TY_OK;
@@ -213,9 +291,11 @@ ty_bucket_drain(ty_run *run, bool *found)
 	*found = b < queue->buckets;
 	if (!*found)
 		return TY_OK;
-	queue->next = b + 1;
+	queue->next = b;
+	queue->limit = queue->bucket[b].count > GIANT(run->n) ? limit_of_part(run, b) : end_of_bucket(queue, b);
 	bucket = queue->bucket[b];
-	queue->bucket[b] = (ty_bucket){TY_NONE, TY_CHUNK_VERTICES};
+	vertices = first_count(&bucket);
+	queue->bucket[b] = (ty_bucket){TY_NONE, 0};
 	while (bucket.first != TY_NONE && status == TY_OK)
 	{
 		ty_chunk chunk = queue->chunk[bucket.first]; /* a copy: others may take its place */
@@ -224,8 +304,11 @@ ty_bucket_drain(ty_run *run, bool *found)
 			__builtin_prefetch(&queue->chunk[chunk.next]);
 		queue->chunk[bucket.first].next = queue->free_chunk;
 		queue->free_chunk = bucket.first;
-		status = drain_chunk(run, b, &chunk, bucket.count, &looked);
-		bucket = (ty_bucket){chunk.next, TY_CHUNK_VERTICES};
+		status = drain_chunk(run, b, &chunk, vertices, &looked);
+		bucket.first = chunk.next;
+		vertices = TY_CHUNK_VERTICES;
+		if (status == TY_OK && ty_interrupted_at(run->env, chunk.next))
+			status = TY_INTERRUPTED;
 	}
 	return status == TY_OK ? look_again(run, &looked) : status;
 }

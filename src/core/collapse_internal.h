@@ -24,7 +24,7 @@ typedef struct ty_chunk
 typedef struct ty_bucket
 {
 	uint32_t first; /* chunk; TY_NONE: empty */
-	uint32_t count; /* of the first chunk's vertices: not in the chunk, which would have to be waited for */
+	uint32_t count; /* of vertices: not in the chunk, which would have to be waited for */
 } ty_bucket;
 
 /* The priority order of the edges: see the head of collapse_queue.c. */
@@ -33,7 +33,8 @@ typedef struct ty_queue
 	int32_t *key; /* [n] bits of a float not above the costs of the edges that the vertex covers */
 	ty_edge *heap;
 	size_t heap_count, heap_capacity;
-	ty_bucket *bucket; /* [buckets] those before `next` are done and their keys are in the heap */
+	ty_edge limit;	   /* entries up to this one are in the heap, all others in buckets */
+	ty_bucket *bucket; /* [buckets] those before `next` are empty */
 	uint32_t buckets, next;
 	int shift; /* a key's bits below a bucket's number */
 	ty_chunk *chunk;
@@ -50,8 +51,9 @@ typedef struct ty_run
 	ty_vertex *vertex; /* [n] the mesh's */
 	ty_position *rest; /* [n] sum of the represented centroids less size * position, per coordinate: exact */
 	ty_queue queue;
-	uint32_t *near; /* for min_distance: vertices that may have a neighbour nearer than it; else NULL */
-	size_t near_count;
+	uint32_t *near; /* for min_distance: merged vertices that may have a neighbour nearer than it; else NULL */
+	size_t near_count, near_capacity;
+	size_t near_first; /* those before it are no nearer than that to one another, but for the ones in near */
 	bool with_cost;
 	ty_sequence *sequence;
 	int64_t surplus; /* of the mesh's work, when a batch was last looked for (collapse_batch.c) */
@@ -70,6 +72,19 @@ static inline uint32_t
 ty_larger(uint32_t a, uint32_t b)
 {
 	return a < b ? b : a;
+}
+
+/* the total order of entries: cost, bounds first, smaller rank, larger rank */
+static inline bool
+ty_before(ty_edge a, ty_edge b)
+{
+	if (a.cost != b.cost)
+		return a.cost < b.cost;
+	if (a.other == TY_NONE || b.other == TY_NONE)
+		return a.other == TY_NONE && b.other != TY_NONE;
+	if (ty_smaller(a.owner, a.other) != ty_smaller(b.owner, b.other))
+		return ty_smaller(a.owner, a.other) < ty_smaller(b.owner, b.other);
+	return ty_larger(a.owner, a.other) < ty_larger(b.owner, b.other);
 }
 
 /* ---- collapse_queue.c ---- */
@@ -99,11 +114,18 @@ ty_status ty_bucket_add(ty_run *run, uint32_t v);
 /* Empties the next bucket that is not: its vertices get their least edges as keys, and so a place in the queue. */
 ty_status ty_bucket_drain(ty_run *run, bool *found);
 
+/* whether an entry belongs into the heap */
+static inline bool
+ty_is_near(const ty_queue *queue, ty_edge e)
+{
+	return !ty_before(queue->limit, e);
+}
+
 /* the number of a key's bucket */
 static inline uint32_t
 ty_bucket_of(const ty_queue *queue, int32_t key)
 {
-	return (uint32_t) (key - 0x3f800000) >> queue->shift; /* costs are at least 1 */
+	return ((uint32_t) key - 0x3f800000) >> queue->shift; /* costs are at least 1; beyond all buckets for other keys */
 }
 
 /* ---- collapse.c ---- */
@@ -127,8 +149,8 @@ void ty_show(const ty_run *run, const ty_mesh *mesh);
 
 /*
  * Merges many edges at once where single collapses have become expensive: at most `most` of them, the next ones
- * of the sequence. Does nothing where it does not pay.
+ * of the sequence, or as many as are shorter than min_distance. Does nothing where it does not pay.
  */
-ty_status ty_collapse_batch(ty_run *run, size_t most);
+ty_status ty_collapse_batch(ty_run *run, size_t most, double min_distance);
 
 #endif

@@ -40,19 +40,6 @@ edge_cost(const ty_run *run, uint32_t a, uint32_t b)
 	return factor * length;
 }
 
-/* the total order of entries: cost, bounds first, smaller rank, larger rank */
-static bool
-before(ty_edge a, ty_edge b)
-{
-	if (a.cost != b.cost)
-		return a.cost < b.cost;
-	if (a.other == TY_NONE || b.other == TY_NONE)
-		return a.other == TY_NONE && b.other != TY_NONE;
-	if (ty_smaller(a.owner, a.other) != ty_smaller(b.owner, b.other))
-		return ty_smaller(a.owner, a.other) < ty_smaller(b.owner, b.other);
-	return ty_larger(a.owner, a.other) < ty_larger(b.owner, b.other);
-}
-
 /* bits of the largest float that is not above a cost; they ascend as costs do, which are not negative */
 static int32_t
 key_of_cost(double cost)
@@ -78,9 +65,9 @@ sift_down(ty_edge *heap, size_t count, size_t at)
 		if (child >= count)
 			break;
 		for (size_t i = child + 1; i < child + 4 && i < count; i++)
-			if (before(heap[i], heap[least]))
+			if (ty_before(heap[i], heap[least]))
 				least = i;
-		if (!before(heap[least], e))
+		if (!ty_before(heap[least], e))
 			break;
 		heap[at] = heap[least];
 		at = least;
@@ -114,9 +101,9 @@ make_room(ty_run *run)
 			queue->heap[count++] = queue->heap[i];
 	queue->heap_count = count;
 	heapify(queue);
-	if (count > queue->heap_capacity / 2)
+	if (count > queue->heap_capacity / 4 * 3)
 	{
-		size_t capacity = 2 * queue->heap_capacity;
+		size_t capacity = queue->heap_capacity + queue->heap_capacity / 4;
 		ty_edge *heap = ty_reallocate_array(run->env, queue->heap, capacity, sizeof *heap);
 
 		if (heap == NULL)
@@ -140,7 +127,7 @@ push(ty_run *run, ty_edge e)
 		if (status != TY_OK)
 			return status;
 	}
-	for (at = queue->heap_count++; at > 0 && before(e, queue->heap[(at - 1) / 4]); at = (at - 1) / 4)
+	for (at = queue->heap_count++; at > 0 && ty_before(e, queue->heap[(at - 1) / 4]); at = (at - 1) / 4)
 		queue->heap[at] = queue->heap[(at - 1) / 4];
 	queue->heap[at] = e;
 	return TY_OK;
@@ -164,7 +151,7 @@ ty_queue_set(ty_run *run, ty_edge e)
 	queue->key[e.owner] = key_of_cost(e.cost);
 	if (e.cost == INFINITY)
 		return TY_OK;
-	return ty_bucket_of(queue, queue->key[e.owner]) < queue->next ? push(run, e) : ty_bucket_add(run, e.owner);
+	return ty_is_near(queue, e) ? push(run, e) : ty_bucket_add(run, e.owner);
 }
 
 /* A partner's key is negative: below all costs, and unlike any entry's. */
@@ -197,7 +184,7 @@ ty_least_edge(const ty_run *run, uint32_t v)
 		{
 			ty_edge e = {edge_cost(run, v, w), v, w};
 
-			if (before(e, least))
+			if (ty_before(e, least))
 				least = e;
 		}
 	} while ((h = ty_next_around(&run->mesh, h)) != first);
@@ -260,7 +247,7 @@ fill_heap(ty_run *run)
 		{
 			ty_edge e = {edge_cost(run, a, b), a, b};
 
-			if (before(e, queue->heap[a]))
+			if (ty_before(e, queue->heap[a]))
 				queue->heap[a] = e;
 		}
 	}
@@ -280,7 +267,7 @@ ty_queue_begin(ty_run *run)
 	bool bucketed = run->mesh.live >= TY_LEAST_BUCKETED;
 
 	queue->heap_capacity = bucketed ? FIRST_HEAP : run->n + 1;
-	queue->next = UINT32_MAX;
+	queue->limit = (ty_edge){INFINITY, 0, 0};
 	queue->key = ty_allocate_array(run->env, run->n, sizeof *queue->key);
 	queue->heap = ty_allocate_array(run->env, queue->heap_capacity, sizeof *queue->heap);
 	if (queue->key == NULL || queue->heap == NULL)
