@@ -54,7 +54,7 @@ clean-tests:
 	@for dir in tests/unit tests/fuzz; do if [ -f $$dir/Makefile ]; then $(MAKE) -s -C $$dir clean; fi; done
 
 .PHONY: demo test fuzz help
-# make hands on what it is given: DATA, ROADS, OSM, ATTRIBUTION, OUT, PGVERSION, TYPIFY_DATA
+# make hands on what it is given: DATA, ROADS, OSM, ATTRIBUTION, OUT, QGIS, PGVERSION, TYPIFY_DATA
 export DATA
 demo: override DATA := $(DEMO_DATA)
 demo:
@@ -74,6 +74,7 @@ help:
 	@echo "  OSM=file.osm.pbf    ... of an OpenStreetMap extract"
 	@echo "  OUT=folder          ... pictures elsewhere"
 	@echo "make test             every test, in a throw-away server"
+	@echo "  QGIS=1              ... with QGIS, which takes 600 MB more"
 	@echo "make fuzz             both fuzz targets, SECONDS=60 each"
 	@echo "make clean            remove what was built"
 	@echo "demo, test and fuzz install missing Debian packages (as root or with sudo) and take PGVERSION=15."
