@@ -1,0 +1,228 @@
+-- 50-levels.sql: the user's tables of the two stored levels of detail, as SQL that reads them
+--
+-- Names are resolved to catalog entries once and written out with their schema, so that no search_path matters.
+-- What the functions below return is the text of a sub-select; only typify_calibrate, typify_derive and their
+-- like put it into a query, which then runs with the rights of the caller.
+
+CREATE FUNCTION typify_refuse_null(argument text) RETURNS void
+LANGUAGE plpgsql IMMUTABLE STRICT PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+BEGIN
+	RAISE EXCEPTION '% must not be null', argument
+		USING ERRCODE = '22004', HINT = 'Give a value, or leave the argument out to take its default.';
+END $$;
+COMMENT ON FUNCTION typify_refuse_null(text) IS 'Raises the error 22004 for an argument that must not be NULL';
+
+CREATE FUNCTION typify_table_name(relation regclass, argument text) RETURNS text
+LANGUAGE plpgsql STABLE PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	entry record;
+BEGIN
+	IF relation IS NULL THEN
+		PERFORM typify_refuse_null(argument);
+	END IF;
+	SELECT format('%I.%I', nspname, relname) AS name, relkind INTO entry
+	FROM pg_class JOIN pg_namespace ON pg_namespace.oid = relnamespace WHERE pg_class.oid = relation;
+	IF NOT FOUND THEN
+		RAISE EXCEPTION '% is %, which is no relation', argument, relation
+			USING ERRCODE = '42P01', HINT = 'Give the name of a table or view.';
+	ELSIF entry.relkind NOT IN ('r', 'p', 'v', 'm', 'f') THEN
+		RAISE EXCEPTION '% is %, which is no table or view', argument, entry.name
+			USING ERRCODE = '42809', HINT = 'Give the name of a table, view, materialized view or foreign table.';
+	END IF;
+	RETURN entry.name;
+END $$;
+COMMENT ON FUNCTION typify_table_name(regclass, text) IS
+'The name of a table, view, materialized, partitioned or foreign table with its schema, quoted for SQL. argument: what the error calls it. Errors: 22004 for NULL, 42P01 for an OID that is no relation, 42809 for an index, sequence and the like.';
+
+CREATE FUNCTION typify_column_name(relation regclass, column_name name, kind text, argument text) RETURNS text
+LANGUAGE plpgsql STABLE PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	table_name text := typify_table_name(relation, 'table');
+	type oid;
+BEGIN
+	IF column_name IS NULL THEN
+		PERFORM typify_refuse_null(argument);
+	END IF;
+	SELECT coalesce(nullif(typbasetype, 0), pg_type.oid) INTO type
+	FROM pg_attribute JOIN pg_type ON pg_type.oid = atttypid
+	WHERE attrelid = relation AND attname = column_name AND attnum > 0 AND NOT attisdropped;
+	IF NOT FOUND THEN
+		RAISE EXCEPTION '% has no column %', table_name, quote_ident(column_name)
+			USING ERRCODE = '42703', HINT = format('Name one of its columns with %s => ''...''.', argument);
+	ELSIF kind = 'integer' AND type NOT IN ('int2'::regtype, 'int4'::regtype, 'int8'::regtype) THEN
+		RAISE EXCEPTION 'column % of % is of type %, it must be smallint, integer or bigint', quote_ident(column_name),
+				table_name, format_type(type, NULL)
+			USING ERRCODE = '42804', HINT = format(
+				'Name a key of integers with %s => ''...'', or pass a view that numbers the rows.', argument);
+	ELSIF kind = 'geometry' AND type <> 'geometry'::regtype THEN
+		RAISE EXCEPTION 'column % of % is of type %, it must be geometry', quote_ident(column_name), table_name,
+				format_type(type, NULL)
+			USING ERRCODE = '42804', HINT = format(
+				'Name the geometry column with %s => ''...'', or pass a view that casts to geometry.', argument);
+	END IF;
+	RETURN quote_ident(column_name);
+END $$;
+COMMENT ON FUNCTION typify_column_name(regclass, name, text, text) IS
+'The name of a column, quoted for SQL, after a look at its type. kind: integer (smallint, integer, bigint), geometry or any; domains over them count. argument: the argument that the hint tells to set. Errors: 22004 for NULL, 42703 for a column that is not there, 42804 for one of another type.';
+
+CREATE FUNCTION typify_lod25_source(lod25 regclass, id_column name, geom_column name, group_by name, links regclass)
+RETURNS text
+LANGUAGE plpgsql STABLE PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	table_name text := typify_table_name(lod25, 'lod25');
+	id text := typify_column_name(lod25, id_column, 'integer', 'id_column');
+	geom text := typify_column_name(lod25, geom_column, 'geometry', 'geom_column');
+	grp text := 'NULL';
+	link text := '';
+BEGIN
+	IF links IS NOT NULL THEN
+		IF group_by IS NOT NULL THEN
+			RAISE EXCEPTION 'links and group_by are both given, but links are groups already'
+				USING ERRCODE = '22023', HINT = 'Leave one of them out.';
+		END IF;
+		grp := 'l.' || typify_column_name(links, 'lod200_id', 'integer', 'links');
+		link := format(' LEFT JOIN %s AS l ON l.%s = b.%s', typify_table_name(links, 'links'),
+			typify_column_name(links, 'lod25_id', 'integer', 'links'), id);
+	ELSIF group_by IS NOT NULL THEN
+		grp := 'b.' || typify_column_name(lod25, group_by, 'any', 'group_by');
+	END IF;
+	RETURN format('(SELECT b.%1$s::bigint AS id, b.%2$s::%6$s AS geom, %3$s::text AS grp FROM %4$s AS b%5$s '
+		'WHERE b.%2$s IS NOT NULL AND NOT ST_IsEmpty(b.%2$s))', id, geom, grp, table_name, link,
+		'geometry'::regtype);
+END $$;
+COMMENT ON FUNCTION typify_lod25_source(regclass, name, name, name, regclass) IS
+'The sub-select of the buildings of a table as typify_derive takes them: id bigint, geom, grp text, without those whose geometry is NULL or EMPTY. grp is the column group_by as text, or lod200_id of links (a table or view with lod25_id and lod200_id), or NULL. Errors: as of typify_table_name and typify_column_name; 22023 for links together with group_by.';
+
+CREATE FUNCTION typify_has_column(relation regclass, column_name name) RETURNS boolean
+LANGUAGE sql STABLE PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT EXISTS (SELECT FROM pg_attribute
+		WHERE attrelid = relation AND attname = column_name AND attnum > 0 AND NOT attisdropped);
+END;
+COMMENT ON FUNCTION typify_has_column(regclass, name) IS 'Whether a table or view has a column of this name';
+
+CREATE FUNCTION typify_lod200_source(lod200 regclass, geom_column name, group_column name) RETURNS text
+LANGUAGE plpgsql STABLE PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	geom text := typify_column_name(lod200, geom_column, 'geometry', 'lod200_geom_column');
+BEGIN
+	RETURN format('(SELECT c.%1$s::%4$s AS geom, %2$s::text AS grp FROM %3$s AS c '
+		'WHERE c.%1$s IS NOT NULL AND NOT ST_IsEmpty(c.%1$s))', geom,
+		coalesce('c.' || quote_ident(group_column), 'NULL'), typify_table_name(lod200, 'lod200'),
+		'geometry'::regtype);
+END $$;
+COMMENT ON FUNCTION typify_lod200_source(regclass, name, name) IS
+'The sub-select of the objects of LOD200, without those whose geometry is NULL or EMPTY: geom, and grp text, which is the column group_column, or NULL without one. Errors: as of typify_table_name and typify_column_name.';
+
+-- A building is where its centroid is, and so is an object of LOD200: one that covers buildings of several
+-- groups belongs to the group that its middle is nearest to.
+CREATE FUNCTION typify_lod200_groups(lod25_source text, lod200 regclass, id_column name, geom_column name, group_by name,
+	lod200_group_by name, links regclass) RETURNS text
+LANGUAGE plpgsql STABLE PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+BEGIN
+	IF lod200_group_by IS NOT NULL AND group_by IS NULL AND links IS NULL THEN
+		RAISE EXCEPTION 'lod200_group_by is given without group_by'
+			USING ERRCODE = '22023', HINT = 'Name the column of lod25 with group_by => ''...''.';
+	ELSIF links IS NOT NULL THEN
+		lod200_group_by := coalesce(lod200_group_by, id_column);
+		PERFORM typify_column_name(lod200, lod200_group_by, 'integer', 'lod200_group_by');
+	ELSIF lod200_group_by IS NOT NULL THEN
+		PERFORM typify_column_name(lod200, lod200_group_by, 'any', 'lod200_group_by');
+	ELSIF typify_has_column(lod200, group_by) THEN
+		lod200_group_by := group_by;
+	ELSIF group_by IS NOT NULL THEN
+		-- a query for the least distance and one for the ties, since an index serves both; 1e-12: rounding
+		RETURN format('(SELECT c.geom, n.grp FROM (SELECT geom, ST_Centroid(geom) AS centre FROM %1$s AS c OFFSET 0) AS c
+			CROSS JOIN LATERAL (SELECT b.geom <-> c.centre AS distance FROM %2$s AS b ORDER BY 1 LIMIT 1) AS d
+			CROSS JOIN LATERAL (SELECT b.grp FROM %2$s AS b
+				WHERE ST_DWithin(b.geom, c.centre, d.distance * (1 + 1e-12)) ORDER BY b.id LIMIT 1) AS n)',
+			typify_lod200_source(lod200, geom_column, NULL), lod25_source);
+	END IF;
+	RETURN typify_lod200_source(lod200, geom_column, lod200_group_by);
+END $$;
+COMMENT ON FUNCTION typify_lod200_groups(text, regclass, name, name, name, name, regclass) IS
+'The sub-select of the objects of LOD200 with their groups: geom, grp text. With links, the group of an object is its key, the column lod200_group_by or else id_column. Else it is the column lod200_group_by, or the column that group_by names if LOD200 has it, or the group of the building nearest to the object''s centroid, of equally near ones the one with the smallest id (a GiST index on the buildings makes that fast). Without group_by it is NULL. Errors: as of typify_table_name and typify_column_name; 22023 for lod200_group_by without group_by.';
+
+CREATE FUNCTION typify_source_srid(source text, argument text) RETURNS integer
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	low integer;
+	high integer;
+BEGIN
+	EXECUTE format('SELECT min(ST_SRID(geom)), max(ST_SRID(geom)) FROM %s AS b', source) INTO low, high;
+	IF low <> high THEN
+		RAISE EXCEPTION 'the geometries of % have two SRIDs, % and %', argument, low, high
+			USING ERRCODE = '22023', HINT = 'Use ST_Transform to bring them into one coordinate system.';
+	END IF;
+	-- refuses degrees
+	PERFORM typify_rectangle(ST_SetSRID(ST_MakePoint(0, 0), low), 1, 1, 0);
+	RETURN low;
+END $$;
+COMMENT ON FUNCTION typify_source_srid(text, text) IS
+'The SRID of the geometries of a sub-select (as typify_lod25_source makes it), NULL when it has no row. Errors: 22023 for two of them and for one that is geographic or geocentric.';
+
+CREATE FUNCTION typify_check_ids(source text, lod25 regclass, id_column name, links regclass) RETURNS void
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	is_key boolean := EXISTS (
+		SELECT FROM pg_index JOIN pg_attribute ON attrelid = indrelid AND attnum = indkey[0]
+		WHERE indrelid = lod25 AND attname = id_column AND indisunique AND indimmediate AND indisvalid
+			AND indnkeyatts = 1 AND indpred IS NULL);
+	twice bigint;
+BEGIN
+	IF is_key AND links IS NULL THEN
+		RETURN;
+	END IF;
+	EXECUTE format('SELECT id FROM %s AS b WHERE id IS NOT NULL GROUP BY id HAVING count(*) > 1 ORDER BY id LIMIT 1',
+		source) INTO twice;
+	IF twice IS NULL THEN
+		RETURN;
+	ELSIF is_key THEN
+		RAISE EXCEPTION 'lod25_id % occurs more than once in links %', twice, typify_table_name(links, 'links')
+			USING ERRCODE = '22023', HINT = 'A building belongs to one object of LOD200: keep one row of it.';
+	END IF;
+	RAISE EXCEPTION 'id % occurs more than once in %', twice, typify_table_name(lod25, 'lod25')
+		USING ERRCODE = '22023', HINT = CASE WHEN links IS NULL THEN
+			'Name a column with different numbers with id_column => ''...'', or pass a view that numbers the rows.'
+			ELSE 'Ids of the buildings, and lod25_id of links, must each occur once.' END;
+END $$;
+COMMENT ON FUNCTION typify_check_ids(text, regclass, name, regclass) IS
+'Refuses (22023) buildings of which two have one id, and links that name one building twice. Where a unique index says so already, nothing is read.';
+
+CREATE FUNCTION typify_check_sources(lod25_source text, lod200_source text, box geometry) RETURNS void
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	srid integer := typify_source_srid(lod25_source, 'lod25');
+	lod200_srid integer;
+BEGIN
+	IF lod200_source IS NOT NULL THEN
+		lod200_srid := typify_source_srid(lod200_source, 'lod200');
+	END IF;
+	IF srid <> lod200_srid THEN
+		RAISE EXCEPTION 'the geometries of lod25 have SRID %, those of lod200 SRID %', srid, lod200_srid
+			USING ERRCODE = '22023', HINT = 'Use ST_Transform to bring them into one coordinate system.';
+	ELSIF srid <> ST_SRID(box) THEN
+		RAISE EXCEPTION 'the geometries of lod25 have SRID %, box has SRID %', srid, ST_SRID(box)
+			USING ERRCODE = '22023', HINT = 'Use ST_Transform on box, or ST_MakeEnvelope with the SRID.';
+	END IF;
+END $$;
+COMMENT ON FUNCTION typify_check_sources(text, text, geometry) IS
+'Refuses (22023) two levels of detail, and a box, that are not in one projected coordinate system. lod200_source and box may be NULL.';

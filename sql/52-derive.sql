@@ -1,0 +1,193 @@
+-- 52-derive.sql: placeholders of a whole table at any scale
+
+-- A group never gets more than it has: those that would are full, and the others divide what is left. Sorted by the
+-- level that fills them, the full groups come first; the level of the first that is not full is that of all the rest.
+-- Nine decimals: far above what rounding does to a quota, so that ties are ties.
+CREATE FUNCTION typify_allocate(total bigint, sizes bigint[], shares double precision[]) RETURNS bigint[]
+LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
+BEGIN ATOMIC
+	WITH given AS (
+		SELECT place, size, share, size / nullif(share, 0) AS full_at
+		FROM ROWS FROM (unnest(sizes), unnest(shares)) WITH ORDINALITY AS given(size, share, place)
+	), divided AS (
+		SELECT place, size, share, full_at, (total - sum(size) OVER up + size)::float8 / sum(share) OVER down AS level
+		FROM given WHERE share > 0
+		WINDOW up AS (ORDER BY full_at, place ROWS UNBOUNDED PRECEDING),
+			down AS (ORDER BY full_at DESC, place DESC ROWS UNBOUNDED PRECEDING)
+	), rest AS (
+		SELECT coalesce((SELECT level FROM divided WHERE level <= full_at ORDER BY full_at, place LIMIT 1),
+			'Infinity'::float8) AS level
+	), quota AS (
+		SELECT place, size, round(CASE WHEN share > 0 THEN least(size, share * rest.level) ELSE 0 END::numeric, 9)
+			AS quota
+		FROM given, rest
+	), ranked AS (
+		SELECT place, floor(quota) AS whole, total - sum(floor(quota)) OVER () AS missing,
+			row_number() OVER (ORDER BY floor(quota) < size DESC, quota - floor(quota) DESC, place) AS rank
+		FROM quota
+	)
+	SELECT array_agg((whole + CASE WHEN rank <= missing THEN 1 ELSE 0 END)::bigint ORDER BY place) FROM ranked;
+END;
+COMMENT ON FUNCTION typify_allocate(bigint, bigint[], double precision[]) IS
+'Divides a total over groups in proportion to their shares by largest remainders (Hamilton), equal remainders by their order; no group gets more than its size. total: at most the sum of sizes. NULL for a NULL or empty argument.';
+
+-- What the law leaves of 2^52 buildings is its share, as precise as a double.
+CREATE FUNCTION typify_allot(levels typify_calibration[], scale double precision) RETURNS bigint[]
+LANGUAGE plpgsql IMMUTABLE PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	whole CONSTANT bigint := 4503599627370496;
+	options typify_options := levels[1].options;
+BEGIN
+	IF options.min_distance > 0 AND options.count IS NULL AND options.count_rule IS NULL AND options.exponent IS NULL THEN
+		RAISE EXCEPTION 'min_distance alone says when to stop, so there is no total to distribute'
+			USING ERRCODE = '22023',
+				HINT = 'Set count, count_rule or exponent as well, or use allocation => ''each_group''.';
+	END IF;
+	RETURN typify_allocate(typify_count(levels[1].n25, scale, options),
+		(SELECT array_agg(l.n25 ORDER BY ordinality) FROM unnest(levels) WITH ORDINALITY AS l WHERE NOT l.overall),
+		(SELECT array_agg(l.n25 * typify_count(whole, scale, typify_options_with(l.options,
+				CASE WHEN (l.options).count IS NULL THEN (l.options).exponent ELSE 2 END, (l.options).psi, NULL))::float8
+			/ whole ORDER BY ordinality)
+		 FROM unnest(levels) WITH ORDINALITY AS l WHERE NOT l.overall));
+END $$;
+COMMENT ON FUNCTION typify_allot(typify_calibration[], double precision) IS
+'The count of the whole table at a scale, by the first element''s options, divided over the groups (the other elements) by typify_allocate: in proportion to what the law leaves of each in real numbers, or, with options.count, to their buildings. Error 22023 when min_distance alone says when to stop.';
+
+CREATE FUNCTION typify_census(source text, options typify_options) RETURNS typify_calibration[]
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	levels typify_calibration[];
+BEGIN
+	EXECUTE format(
+		'WITH census AS MATERIALIZED (SELECT grp, count(*) AS n FROM %s AS b GROUP BY grp)
+		SELECT array_agg(ROW(grp, n, 0, NULL, NULL, NULL, NULL, NULL, $1, false, overall)::typify_calibration
+			ORDER BY overall DESC, grp COLLATE "C" NULLS LAST)
+		FROM (SELECT grp, n, false AS overall FROM census
+			UNION ALL SELECT NULL, sum(n)::bigint, true FROM census) AS each', source)
+	INTO levels USING options;
+	RETURN levels;
+END $$;
+COMMENT ON FUNCTION typify_census(text, typify_options) IS
+'As typify_calibrate_levels where nothing is calibrated: the counts of a sub-select and of its groups, with the options as they are.';
+
+CREATE FUNCTION typify_wanted(source text, groups text[], box geometry) RETURNS text[]
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	wanted text[] := CASE WHEN groups IS NOT NULL THEN
+		ARRAY(SELECT DISTINCT typify_group_key(grp) FROM unnest(groups) AS grp) END;
+BEGIN
+	IF box IS NOT NULL THEN
+		EXECUTE format(
+			'SELECT coalesce(array_agg(DISTINCT key), ''{}'')
+			FROM (SELECT typify_group_key(grp) AS key FROM %s AS b WHERE geom && $1) AS met
+			WHERE $2 IS NULL OR key = ANY ($2)', source)
+		INTO wanted USING box, wanted;
+	END IF;
+	RETURN wanted;
+END $$;
+COMMENT ON FUNCTION typify_wanted(text, text[], geometry) IS
+'The keys (typify_group_key) of the groups among the given ones that have a building whose bounding box meets that of box; NULL for all groups, when neither is given.';
+
+CREATE FUNCTION typify_derive(
+	lod25 regclass,
+	lod200 regclass,
+	scale double precision,
+	s_u double precision DEFAULT 0,
+	group_by name DEFAULT NULL,
+	box geometry DEFAULT NULL,
+	options typify_options DEFAULT NULL,
+	allocation text DEFAULT 'each_group',
+	id_column name DEFAULT 'id',
+	geom_column name DEFAULT 'geom',
+	lod200_geom_column name DEFAULT 'geom',
+	lod200_group_by name DEFAULT NULL,
+	links regclass DEFAULT NULL,
+	groups text[] DEFAULT NULL)
+RETURNS TABLE (
+	id bigint,
+	geom geometry,
+	member_count integer,
+	members bigint[],
+	area double precision,
+	width double precision,
+	length double precision,
+	orientation double precision,
+	grp text)
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+SET jit = off
+AS $$
+#variable_conflict use_column
+DECLARE
+	grouped boolean := group_by IS NOT NULL OR links IS NOT NULL;
+	source text := typify_lod25_source(lod25, id_column, geom_column, group_by, links);
+	lod200_source text;
+	wanted text[];
+	levels typify_calibration[];
+	allotted bigint[];
+	given typify_calibration[];
+BEGIN
+	IF allocation IS NULL THEN
+		PERFORM typify_refuse_null('allocation');
+	ELSIF allocation NOT IN ('each_group', 'total') THEN
+		RAISE EXCEPTION 'allocation is "%", it must be each_group or total', allocation
+			USING ERRCODE = '22023', HINT = 'each_group gives every group its own count, total divides that of all.';
+	END IF;
+	PERFORM typify_check_parameters(scale, s_u, options);
+	IF lod200 IS NOT NULL THEN
+		lod200_source := typify_lod200_groups(source, lod200, id_column, lod200_geom_column, group_by,
+			lod200_group_by, links);
+		PERFORM typify_check_sources(source, typify_lod200_source(lod200, lod200_geom_column, NULL), box);
+	ELSE
+		PERFORM typify_check_sources(source, NULL, box);
+	END IF;
+	PERFORM typify_check_ids(source, lod25, id_column, links);
+
+	wanted := typify_wanted(source, groups, box);
+	IF lod200 IS NOT NULL THEN
+		levels := typify_calibrate_levels(source, lod200_source, s_u, options, grouped, wanted, false);
+	ELSE
+		levels := typify_census(source, options);
+	END IF;
+	IF NOT grouped THEN
+		levels := levels[1:1];
+		levels[1].overall := false;
+	ELSIF allocation = 'total' THEN
+		allotted := 0 || typify_allot(levels, scale);
+	END IF;
+	SELECT array_agg(ROW(l.grp, l.n25, l.n200, l.mean_area25, l.mean_placeholder_area, l.mean_area200, l.exponent,
+			l.psi, typify_options_with(l.options, (l.options).exponent, (l.options).psi,
+				CASE WHEN allotted IS NULL THEN (l.options).count ELSE greatest(allotted[ordinality], 1) END),
+			l.calibrated, l.overall)::typify_calibration ORDER BY ordinality),
+		array_agg(allotted[ordinality] ORDER BY ordinality)
+	INTO given, allotted
+	FROM unnest(levels) WITH ORDINALITY AS l
+	WHERE NOT l.overall AND l.n25 > 0 AND (wanted IS NULL OR typify_group_key(l.grp) = ANY (wanted));
+	IF given IS NULL THEN
+		RETURN;
+	END IF;
+	RETURN QUERY
+		SELECT p.id, CASE WHEN hidden THEN NULL ELSE p.geom END, p.member_count, p.members,
+			CASE WHEN hidden THEN 0 ELSE p.area END, CASE WHEN hidden THEN 0 ELSE p.width END,
+			CASE WHEN hidden THEN 0 ELSE p.length END, p.orientation, g.grp
+		FROM typify_each_group(source, scale, s_u, given, grouped) AS g
+		LEFT JOIN (SELECT typify_group_key(n.grp) AS key, true AS none
+				   FROM unnest(given) WITH ORDINALITY AS n WHERE allotted[ordinality] = 0) AS n
+			ON n.key = typify_group_key(g.grp)
+		CROSS JOIN LATERAL unnest(g.list) AS p
+		CROSS JOIN LATERAL (SELECT coalesce(n.none, false) AS hidden) AS shown;
+END $$;
+COMMENT ON FUNCTION typify_derive(regclass, regclass, double precision, double precision, name, geometry,
+	typify_options, text, name, name, name, name, regclass, text[]) IS
+'The placeholders of a table of buildings at any scale (its denominator, at least source_scale), calibrated as typify_calibrate does with lod200, the stored coarse level, or, where lod200 is NULL, with options as they are. Rows in no particular order: the fields of typify_placeholder (id: of the representative, and so a key of the layer), and grp, the group as text.
+group_by: a column of lod25, of any type; each of its values is typified by itself, NULL too. links: a table or view with lod25_id and lod200_id, as typify_match returns, instead: lod200_id is the group, and buildings without a link are the NULL group; at m200 each group with an object of lod200 is one placeholder of its area.
+allocation: each_group gives every group its own count, as the aggregate does. total divides the count of the whole table at the scale by largest remainders, in proportion to what the law leaves of each group in real numbers, equal remainders by the bytes of the group''s name. A group may get none: it is one row with geom NULL, area, width and length 0, all its buildings as members.
+box: only groups that have a building whose bounding box meets that of box, each whole. groups: only these groups (an element NULL is the NULL group). The rows are the same as without either.
+Columns, groups of lod200 and what options keep: see typify_calibrate. lod25 and lod200 may be tables, views, materialized, partitioned or foreign tables; NULL and EMPTY geometries do not count. No row when lod25 has no building.
+Errors: as of typify_calibrate and typify_placeholders; 22023 for an allocation or a scale that is not allowed, a box of another SRID, and total with min_distance alone.';
