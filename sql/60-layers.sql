@@ -1,0 +1,654 @@
+-- 60-layers.sql: one stored layer per scale, as a materialized view or a table
+--
+-- A layer knows how it was derived from its comment, a JSON text; there is no other record of it, so dropping it is
+-- a plain DROP and a dump takes everything along. A calibrated table layer also remembers which share of LOD200
+-- each group had, as the comment of its index on grp: by that typify_refresh_groups finds the groups whose
+-- calibration moved although none of their own buildings changed.
+--
+-- Names are resolved where the caller's search_path is still in force: relations arrive as regclass, and the thin
+-- outer functions, which set no search_path, hand on current_schema(). Everything within says schema and name.
+
+CREATE FUNCTION typify_layer_name(caller_schema name, name text) RETURNS text
+LANGUAGE plpgsql STABLE PARALLEL SAFE
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	parts text[];
+	schema text;
+	layer text;
+BEGIN
+	IF name IS NULL THEN
+		PERFORM typify_refuse_null('name');
+	END IF;
+	BEGIN
+		parts := parse_ident(name);
+	EXCEPTION WHEN invalid_parameter_value THEN
+		RAISE EXCEPTION '"%" is not a name', name USING ERRCODE = 'invalid_name',
+			HINT = 'Write name or schema.name, parts with spaces or signs in double quotes: "My Schema"."Layer 75".';
+	END;
+	IF cardinality(parts) > 2 THEN
+		RAISE EXCEPTION '"%" has too many parts for a name', name USING ERRCODE = 'invalid_name',
+			HINT = 'Write name or schema.name; a name that contains a dot goes in double quotes.';
+	END IF;
+	layer := parts[cardinality(parts)];
+	schema := CASE WHEN cardinality(parts) = 2 THEN parts[1] ELSE caller_schema::text END;
+	IF octet_length(layer) > 63 THEN
+		RAISE EXCEPTION 'the name "%" is too long', layer USING ERRCODE = 'name_too_long',
+			HINT = 'A name has at most 63 bytes.';
+	END IF;
+	IF schema IS NULL THEN
+		RAISE EXCEPTION 'no schema has been selected to create the layer "%" in', layer
+			USING ERRCODE = 'invalid_schema_name', HINT = 'Write schema.name, or set the search_path.';
+	END IF;
+	IF to_regnamespace(quote_ident(schema)) IS NULL THEN
+		RAISE EXCEPTION 'schema "%" does not exist', schema USING ERRCODE = 'invalid_schema_name',
+			HINT = format('CREATE SCHEMA %I, or choose one that is there.', schema);
+	END IF;
+	RETURN format('%I.%I', schema, layer);
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_name(name, text) IS
+'Schema and name, quoted where needed, of a layer to be: name is written as in SQL, its schema may be left out and is then caller_schema. Errors: 22004 for a NULL name; 42602 for a text that is no name or has more than two parts; 42622 above 63 bytes; 3F000 for a schema that is missing.';
+
+CREATE FUNCTION typify_layer_definition(lod25 regclass, lod200 regclass, scale double precision, s_u double precision,
+	group_by name, options typify_options, allocation text, id_column name, geom_column name,
+	lod200_geom_column name, lod200_group_by name, links regclass)
+RETURNS json
+LANGUAGE plpgsql STABLE
+SET search_path FROM CURRENT
+SET extra_float_digits = 1 AS
+$$
+DECLARE
+	argument text;
+BEGIN
+	argument := CASE WHEN scale IS NULL THEN 'scale' WHEN s_u IS NULL THEN 's_u'
+		WHEN allocation IS NULL THEN 'allocation' WHEN id_column IS NULL THEN 'id_column'
+		WHEN geom_column IS NULL THEN 'geom_column' WHEN lod200_geom_column IS NULL THEN 'lod200_geom_column' END;
+	IF argument IS NOT NULL THEN
+		PERFORM typify_refuse_null(argument);
+	END IF;
+	RETURN json_build_object(
+		'typify', (SELECT extversion FROM pg_extension WHERE extname = 'typify'),
+		'lod25', typify_table_name(lod25, 'lod25'),
+		'lod200', CASE WHEN lod200 IS NOT NULL THEN typify_table_name(lod200, 'lod200') END,
+		'scale', scale, 's_u', s_u, 'group_by', group_by, 'allocation', allocation,
+		'options', jsonb_strip_nulls(to_jsonb(options) || jsonb_build_object('barriers', (options).barriers::text)),
+		'id_column', id_column, 'geom_column', geom_column, 'lod200_geom_column', lod200_geom_column,
+		'lod200_group_by', lod200_group_by,
+		'links', CASE WHEN links IS NOT NULL THEN typify_table_name(links, 'links') END);
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_definition(regclass, regclass, double precision, double precision, name,
+	typify_options, text, name, name, name, name, regclass) IS
+'How a layer is derived, as its comment says it: a JSON object of the version of typify, the arguments of typify_derive by their names (relations with schema) and, among options, those that are set. Errors: 22004 for a NULL where a value is needed; those of typify_table_name.';
+
+CREATE FUNCTION typify_layer_comment(relation oid) RETURNS jsonb
+LANGUAGE plpgsql STABLE
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	comment jsonb := obj_description(relation, 'pg_class');
+BEGIN
+	RETURN CASE jsonb_typeof(comment) WHEN 'object' THEN comment END;
+EXCEPTION WHEN invalid_text_representation THEN
+	RETURN NULL;
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_comment(oid) IS
+'The comment of a relation where it is a JSON object; NULL otherwise.';
+
+CREATE FUNCTION typify_layer(layer regclass) RETURNS jsonb
+LANGUAGE plpgsql STABLE
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	name text := typify_table_name(layer, 'name');
+	definition jsonb := typify_layer_comment(layer);
+BEGIN
+	IF definition ?& ARRAY['typify', 'lod25', 'scale', 's_u', 'options'] THEN
+		RETURN definition;
+	END IF;
+	RAISE EXCEPTION '% is not a layer of typify', name USING ERRCODE = 'wrong_object_type',
+		HINT = 'Layers are made by typify_create_scale or typify_build_scale; the JSON in their comment says how they are derived and must stay.';
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer(regclass) IS
+'How a layer is derived, as its comment says (see typify_layer_definition); "finished": false marks a table that typify_build_scale has not completed. Errors: 22004 for NULL; 42809 for what is no layer.';
+
+CREATE FUNCTION typify_layer_call(definition jsonb, function text, groups text DEFAULT '') RETURNS text
+LANGUAGE plpgsql STABLE
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	source text;
+	options text := 'NULL';
+BEGIN
+	FOREACH source IN ARRAY ARRAY[definition->>'lod25', definition->>'lod200', definition->>'links'] LOOP
+		IF source IS NOT NULL AND to_regclass(source) IS NULL THEN
+			RAISE EXCEPTION '%, from which the layer is derived, does not exist', source
+				USING ERRCODE = 'undefined_table',
+				HINT = 'Rename the table back, or drop the layer and create it from what is there now.';
+		END IF;
+	END LOOP;
+	IF definition->'options' <> 'null' THEN
+		SELECT format('typify_options(%s)', string_agg(format('%I => %L', key, value), ', ' ORDER BY key))
+		INTO options FROM jsonb_each_text(definition->'options');
+	END IF;
+	RETURN format('%s(lod25 => %L::regclass, lod200 => %L::regclass, s_u => %L, group_by => %L, options => %s, '
+			'id_column => %L, geom_column => %L, lod200_geom_column => %L, lod200_group_by => %L, links => %L::regclass',
+			function, definition->>'lod25', definition->>'lod200', definition->>'s_u', definition->>'group_by', options,
+			definition->>'id_column', definition->>'geom_column', definition->>'lod200_geom_column',
+			definition->>'lod200_group_by', definition->>'links')
+		|| CASE function WHEN 'typify_derive' THEN format(', scale => %L, allocation => %L%s)',
+			definition->>'scale', definition->>'allocation', groups) ELSE ')' END;
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_call(jsonb, text, text) IS
+'SQL that calls typify_derive or typify_calibrate as the definition of a layer says; groups: a further argument of typify_derive. Options are written as a call of typify_options with those that are set, so that the definition of a materialized view outlives new options. Error 42P01 when a table from which the layer is derived is there no more.';
+
+CREATE FUNCTION typify_layer_geometry(relation regclass, column_name name) RETURNS text
+LANGUAGE plpgsql STABLE
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	geom text := typify_column_name(relation, column_name, 'geometry', 'geom_column');
+	srid integer;
+BEGIN
+	SELECT postgis_typmod_srid(atttypmod) INTO srid FROM pg_attribute
+	WHERE attrelid = relation AND attname = column_name AND atttypmod >= 0;
+	IF coalesce(srid, 0) = 0 THEN
+		EXECUTE format('SELECT ST_SRID(%1$s) FROM %2$s WHERE %1$s IS NOT NULL LIMIT 1', geom,
+			typify_table_name(relation, 'lod25')) INTO srid;
+	END IF;
+	RETURN format('geometry(Polygon, %s)', coalesce(srid, 0));
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_geometry(regclass, name) IS
+'The type of the geometry column of a layer derived from this column: polygons with the SRID that the column says or, where it says none, of the first geometry in it. Errors: as of typify_column_name.';
+
+CREATE FUNCTION typify_layer_create_table(layer text, definition json, geom_type text) RETURNS regclass
+LANGUAGE plpgsql
+SET search_path FROM CURRENT AS
+$$
+BEGIN
+	EXECUTE format('CREATE TABLE %s (id bigint PRIMARY KEY, geom %s, member_count integer NOT NULL, '
+		'members bigint[] NOT NULL, area float8, width float8, length float8, orientation float8, grp text)', layer, geom_type);
+	EXECUTE format('CREATE INDEX ON %s (grp)', layer);
+	EXECUTE format('COMMENT ON TABLE %s IS %L', layer, definition);
+	RETURN layer::regclass;
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_create_table(text, json, text) IS
+'An empty table for a layer, with its comment, its key and the index on grp.';
+
+CREATE FUNCTION typify_layer_replace(layer regclass, groups text[], derived text) RETURNS bigint
+LANGUAGE plpgsql
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	rows bigint;
+BEGIN
+	EXECUTE format('DELETE FROM %s WHERE $1 IS NULL OR grp = ANY ($1) OR grp IS NULL AND array_position($1, NULL) > 0',
+		typify_table_name(layer, 'name')) USING groups;
+	EXECUTE format('INSERT INTO %s (id, geom, member_count, members, area, width, length, orientation, grp) '
+		'SELECT id, geom, member_count, members, area, width, length, orientation, grp FROM %s',
+		typify_table_name(layer, 'name'), derived) USING groups;
+	GET DIAGNOSTICS rows = ROW_COUNT;
+	RETURN rows;
+EXCEPTION WHEN unique_violation THEN
+	IF groups IS NULL THEN
+		RAISE;
+	END IF;
+	RAISE EXCEPTION 'a building of these groups represents a placeholder of another group in %', layer
+		USING ERRCODE = 'unique_violation',
+		HINT = 'Where buildings moved from one group to another, refresh both; or use typify_refresh_scale.';
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_replace(regclass, text[], text) IS
+'Replaces the rows of these groups of a table layer (NULL: all) by others, and returns their number. derived: SQL that gives them and takes the groups as $1. Error 23505 when the id of a new row stands in a group that is not among them.';
+
+CREATE FUNCTION typify_layer_is_calibrated(definition jsonb) RETURNS boolean
+LANGUAGE sql IMMUTABLE PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT definition->>'lod200' IS NOT NULL AND NOT coalesce(definition->'options' ?& ARRAY['exponent', 'psi'], false);
+END;
+
+COMMENT ON FUNCTION typify_layer_is_calibrated(jsonb) IS
+'Whether a layer takes exponent or psi from LOD200: there is one, and options do not give both.';
+
+CREATE FUNCTION typify_layer_source(definition jsonb) RETURNS text
+LANGUAGE sql STABLE
+BEGIN ATOMIC
+	SELECT typify_lod25_source((definition->>'lod25')::regclass, (definition->>'id_column')::name,
+		(definition->>'geom_column')::name, (definition->>'group_by')::name, (definition->>'links')::regclass);
+END;
+
+COMMENT ON FUNCTION typify_layer_source(jsonb) IS
+'The sub-select of the buildings from which a layer is derived (see typify_lod25_source).';
+
+CREATE FUNCTION typify_layer_shares(definition jsonb) RETURNS jsonb
+LANGUAGE plpgsql STABLE
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	shares jsonb;
+BEGIN
+	EXECUTE 'SELECT jsonb_agg(jsonb_build_array(grp, number, area) ORDER BY grp COLLATE "C") FROM ('
+		'SELECT grp, count(*) AS number, sum(ST_Area(geom)::numeric) AS area FROM '
+		|| typify_lod200_groups(typify_layer_source(definition), (definition->>'lod200')::regclass, (definition->>'id_column')::name,
+			(definition->>'lod200_geom_column')::name, (definition->>'group_by')::name,
+			(definition->>'lod200_group_by')::name, (definition->>'links')::regclass)
+		|| ' AS lod200 GROUP BY grp) AS share' INTO shares;
+	RETURN coalesce(shares, '[]');
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_shares(jsonb) IS
+'Which share of LOD200 each group of a layer has now: a JSON array of [grp, number of objects, sum of their areas]. By that and by its own buildings a group is calibrated.';
+
+CREATE FUNCTION typify_layer_share_rows(shares jsonb) RETURNS TABLE (key text, number bigint, area numeric)
+LANGUAGE sql IMMUTABLE PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT typify_group_key(share->>0), (share->>1)::bigint, (share->>2)::numeric
+	FROM jsonb_array_elements(shares) AS share;
+END;
+
+COMMENT ON FUNCTION typify_layer_share_rows(jsonb) IS
+'What typify_layer_shares found, as rows; key: as of typify_group_key.';
+
+CREATE FUNCTION typify_layer_shares_index(layer regclass) RETURNS regclass
+LANGUAGE sql STABLE
+BEGIN ATOMIC
+	SELECT min(indexrelid)::regclass FROM pg_index JOIN pg_attribute ON attrelid = indrelid AND attnum = indkey[0]
+	WHERE indrelid = layer AND indnatts = 1 AND attname = 'grp';
+END;
+
+COMMENT ON FUNCTION typify_layer_shares_index(regclass) IS
+'The index on grp of a table layer, whose comment keeps the shares of LOD200; NULL when it was dropped.';
+
+CREATE FUNCTION typify_layer_keep_shares(layer regclass, kept jsonb) RETURNS void
+LANGUAGE plpgsql
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	index regclass := typify_layer_shares_index(layer);
+BEGIN
+	IF index IS NOT NULL AND kept IS DISTINCT FROM typify_layer_comment(index) THEN
+		EXECUTE format('COMMENT ON INDEX %s IS %L', index, kept);
+	END IF;
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_keep_shares(regclass, jsonb) IS
+'Writes down the shares of LOD200 with which the groups of a table layer were derived, as {"lod200": shares}, and while it is being built their calibration, "calibration".';
+
+CREATE FUNCTION typify_layer_derive_all(layer regclass, definition jsonb) RETURNS void
+LANGUAGE plpgsql
+SET search_path FROM CURRENT AS
+$$
+BEGIN
+	PERFORM typify_layer_replace(layer, NULL, typify_layer_call(definition, 'typify_derive', ', groups => $1'));
+	PERFORM typify_layer_keep_shares(layer, CASE WHEN typify_layer_is_calibrated(definition)
+		THEN jsonb_build_object('lod200', typify_layer_shares(definition)) END);
+	PERFORM typify_layer_finish(layer);
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_derive_all(regclass, jsonb) IS
+'Fills a table layer, in place of what is in it.';
+
+CREATE FUNCTION typify_layer_finish(layer regclass) RETURNS void
+LANGUAGE plpgsql
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	name text := typify_table_name(layer, 'name');
+	kind text := CASE relkind WHEN 'm' THEN 'MATERIALIZED VIEW' ELSE 'TABLE' END FROM pg_class WHERE oid = layer;
+	definition json;
+BEGIN
+	SELECT json_object_agg(key, value) INTO definition
+	FROM json_each(obj_description(layer, 'pg_class')::json) WHERE key <> 'finished';
+	EXECUTE format('COMMENT ON %s %s IS %L', kind, name, definition);
+	IF NOT EXISTS (SELECT FROM pg_index JOIN pg_attribute ON attrelid = indrelid AND attnum = indkey[0]
+			WHERE indrelid = layer AND attname = 'geom') THEN
+		EXECUTE format('CREATE INDEX ON %s USING gist (geom)', name);
+	END IF;
+	EXECUTE format('ANALYZE %s', name);
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_finish(regclass) IS
+'What a layer gets when its rows are there: the spatial index, statistics, a comment without "finished".';
+
+CREATE FUNCTION typify_layer_create(caller_schema name, name text, kind text, definition json) RETURNS regclass
+LANGUAGE plpgsql
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	layer_name text := typify_layer_name(caller_schema, name);
+	layer regclass := to_regclass(layer_name);
+	geom_type text := typify_layer_geometry((definition->>'lod25')::regclass, (definition->>'geom_column')::name);
+	source text;
+BEGIN
+	IF kind IS NULL THEN
+		PERFORM typify_refuse_null('kind');
+	ELSIF kind NOT IN ('materialized view', 'table') THEN
+		RAISE EXCEPTION 'kind is "%"', kind USING ERRCODE = 'invalid_parameter_value',
+			HINT = 'It must be ''materialized view'' or ''table''.';
+	ELSIF layer IS NOT NULL THEN
+		RAISE EXCEPTION '% exists already', layer_name USING ERRCODE = 'duplicate_table',
+			HINT = 'Drop it first or choose another name; typify_refresh_scale derives a layer anew.';
+	END IF;
+	IF kind = 'materialized view' THEN
+		FOREACH source IN ARRAY ARRAY[definition->>'lod25', definition->>'lod200', definition->>'links'] LOOP
+			IF (SELECT relpersistence = 't' FROM pg_class WHERE oid = source::regclass) THEN
+				RAISE EXCEPTION 'a materialized view cannot be derived from the temporary table %', source
+					USING ERRCODE = 'feature_not_supported',
+					HINT = 'Use a permanent table, or create the layer with kind => ''table''.';
+			END IF;
+		END LOOP;
+		EXECUTE format('CREATE MATERIALIZED VIEW %s AS '
+			'SELECT id, geom::%s AS geom, member_count, members, area, width, length, orientation, grp FROM %s',
+			layer_name, geom_type, typify_layer_call(definition::jsonb, 'typify_derive'));
+		layer := layer_name::regclass;
+		EXECUTE format('CREATE UNIQUE INDEX ON %s (id)', layer_name);
+		EXECUTE format('COMMENT ON MATERIALIZED VIEW %s IS %L', layer_name, definition);
+		PERFORM typify_layer_finish(layer);
+	ELSE
+		layer := typify_layer_create_table(layer_name, definition, geom_type);
+		PERFORM typify_layer_derive_all(layer, definition::jsonb);
+	END IF;
+	RETURN layer;
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_create(name, text, text, json) IS
+'The work of typify_create_scale; caller_schema: where a name without a schema goes.';
+
+CREATE FUNCTION typify_create_scale(
+	name text,
+	lod25 regclass,
+	lod200 regclass,
+	scale double precision,
+	s_u double precision DEFAULT 0,
+	group_by name DEFAULT NULL,
+	kind text DEFAULT 'materialized view',
+	options typify_options DEFAULT NULL,
+	allocation text DEFAULT 'each_group',
+	id_column name DEFAULT 'id',
+	geom_column name DEFAULT 'geom',
+	lod200_geom_column name DEFAULT 'geom',
+	lod200_group_by name DEFAULT NULL,
+	links regclass DEFAULT NULL)
+RETURNS regclass
+LANGUAGE sql
+BEGIN ATOMIC
+	SELECT typify_layer_create(current_schema(), name, kind, typify_layer_definition(lod25, lod200, scale, s_u,
+		group_by, options, allocation, id_column, geom_column, lod200_geom_column, lod200_group_by, links));
+END;
+
+COMMENT ON FUNCTION typify_create_scale(text, regclass, regclass, double precision, double precision, name, text,
+	typify_options, text, name, name, name, name, regclass) IS
+'Creates a layer: the placeholders of typify_derive at one scale, stored, and returns it. name is written as in SQL, with or without a schema; kind is ''materialized view'' or ''table''; all other arguments are those of typify_derive. The layer has its columns, a unique index on id (the id of the representative, which does not change when buildings elsewhere do), geom of type geometry(Polygon, SRID) with a spatial index, for tables an index on grp, and a JSON comment that says how it was derived. It is dropped by DROP. Errors: 42P07 when the name is taken; 42602, 42622, 3F000 for a name that is none, is too long or has a schema that is missing; 22023 for another kind; 22004 for a NULL where a value is needed; 0A000 for a materialized view of a temporary table; those of typify_derive.';
+
+CREATE FUNCTION typify_refresh_scale(name regclass, concurrently boolean DEFAULT false) RETURNS void
+LANGUAGE plpgsql
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	definition jsonb := typify_layer(name);
+	layer text := typify_table_name(name, 'name');
+BEGIN
+	IF typify_refresh_scale.concurrently IS NULL THEN
+		PERFORM typify_refuse_null('concurrently');
+	END IF;
+	IF (SELECT relkind = 'm' FROM pg_class WHERE oid = name) THEN
+		EXECUTE format('REFRESH MATERIALIZED VIEW %s %s', CASE WHEN typify_refresh_scale.concurrently THEN 'CONCURRENTLY' ELSE '' END, layer);
+	ELSIF typify_refresh_scale.concurrently THEN
+		RAISE EXCEPTION '% is a table, which is not refreshed concurrently', layer
+			USING ERRCODE = 'wrong_object_type',
+			HINT = 'Leave concurrently out: whoever reads a table sees the old rows until the transaction commits.';
+	ELSE
+		EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
+		PERFORM typify_layer_derive_all(name, definition);
+	END IF;
+END
+$$;
+
+COMMENT ON FUNCTION typify_refresh_scale(regclass, boolean) IS
+'Derives a layer anew from its tables as they are now, calibration included. concurrently: a materialized view stays readable meanwhile (REFRESH MATERIALIZED VIEW CONCURRENTLY); a table always does. Finishes a table that typify_build_scale began. Errors: 42809 for what is no layer, and for concurrently with a table; 42P01 when a table from which it is derived is there no more; 22004 for NULL; those of typify_derive.';
+
+CREATE FUNCTION typify_refresh_groups(name regclass, groups text[]) RETURNS bigint
+LANGUAGE plpgsql
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	definition jsonb := typify_layer(name);
+	layer text := typify_table_name(name, 'name');
+	before jsonb := typify_layer_comment(typify_layer_shares_index(name))->'lod200';
+	now jsonb;
+	moved text[];
+BEGIN
+	IF groups IS NULL THEN
+		PERFORM typify_refuse_null('groups');
+	ELSIF (SELECT relkind <> 'r' FROM pg_class WHERE oid = name) THEN
+		RAISE EXCEPTION '% is a materialized view, whose groups are not refreshed one by one', layer
+			USING ERRCODE = 'wrong_object_type',
+			HINT = 'Use typify_refresh_scale, or create the layer with kind => ''table''.';
+	ELSIF definition->>'allocation' = 'total' THEN
+		RAISE EXCEPTION 'the allocation of % is total, so that its groups depend on each other', layer
+			USING ERRCODE = 'feature_not_supported', HINT = 'Use typify_refresh_scale.';
+	ELSIF definition->'finished' = 'false' THEN
+		RAISE EXCEPTION '% is not finished', layer USING ERRCODE = 'object_not_in_prerequisite_state',
+			HINT = 'Call typify_build_scale as before to go on with it, or typify_refresh_scale.';
+	END IF;
+	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
+	IF typify_layer_is_calibrated(definition) THEN
+		now := typify_layer_shares(definition);
+		EXECUTE format('SELECT array_agg(grp)
+			FROM (SELECT grp, typify_group_key(grp) AS key, sum(member_count) AS n25 FROM %s GROUP BY grp) AS g
+			LEFT JOIN typify_layer_share_rows($1) AS old USING (key) LEFT JOIN typify_layer_share_rows($2) AS new USING (key)
+			WHERE (old.number, old.area) IS DISTINCT FROM (new.number, new.area)
+				OR coalesce(new.number, 0) NOT BETWEEN 1 AND n25 OR new.area = 0', layer) INTO moved USING before, now;
+		groups := CASE WHEN before IS NOT NULL THEN groups || moved END;
+		PERFORM typify_layer_keep_shares(name, jsonb_build_object('lod200', now));
+	END IF;
+	RETURN typify_layer_replace(name, groups, typify_layer_call(definition, 'typify_derive', ', groups => $1'));
+END
+$$;
+
+COMMENT ON FUNCTION typify_refresh_groups(regclass, text[]) IS
+'Derives groups of a table layer anew and returns the number of rows written. groups: those in which buildings were added, changed, moved or removed, as text (a NULL element is the NULL group); a group that is no longer there loses its rows. Afterwards the layer has the rows that deriving it anew would give: groups whose calibration moved with the change are refreshed as well, that is, all that use the overall values, and those whose LOD200 objects changed. Where options give both exponent and psi, or without LOD200, nothing is calibrated and only the groups named are touched. Errors: 42809 for what is no layer or is a materialized view; 0A000 for a layer whose allocation is total; 55000 for one that typify_build_scale has not finished; 23505 when a building that came from a group that is not named represents a placeholder there; 42P01 when a table from which it is derived is there no more; 22004 for NULL.';
+
+CREATE FUNCTION typify_layer_calibration(definition jsonb) RETURNS jsonb
+LANGUAGE plpgsql STABLE
+SET search_path FROM CURRENT
+SET extra_float_digits = 1 AS
+$$
+DECLARE
+	calibration jsonb;
+BEGIN
+	EXECUTE 'SELECT jsonb_build_object(
+			''overall'', jsonb_agg(jsonb_build_array((options).exponent, (options).psi)) FILTER (WHERE overall)->0,
+			''groups'', coalesce(jsonb_agg(jsonb_build_array(grp, (options).exponent, (options).psi))
+				FILTER (WHERE calibrated AND NOT overall), ''[]''))
+		FROM ' || typify_layer_call(definition, 'typify_calibrate') INTO calibration;
+	RETURN calibration;
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_calibration(jsonb) IS
+'To what the groups of a layer are calibrated now: {"overall": [exponent, psi], "groups": [[grp, exponent, psi], ...]}; a group that is not listed has the overall values.';
+
+CREATE FUNCTION typify_layer_begin(caller_schema name, name text, definition json, batch integer) RETURNS regclass
+LANGUAGE plpgsql
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	layer_name text := typify_layer_name(caller_schema, name);
+	layer regclass := to_regclass(layer_name);
+	there jsonb := typify_layer_comment(layer);
+BEGIN
+	IF batch IS NULL THEN
+		PERFORM typify_refuse_null('batch');
+	ELSIF batch < 1 THEN
+		RAISE EXCEPTION 'batch is %', batch USING ERRCODE = 'invalid_parameter_value',
+			HINT = 'It must be at least 1: so many groups are derived between two commits.';
+	END IF;
+	IF layer IS NOT NULL THEN
+		IF there->'finished' = 'false' AND there - 'finished' - 'typify' = definition::jsonb - 'typify' THEN
+			RETURN layer;
+		END IF;
+		RAISE EXCEPTION '% exists already', layer_name USING ERRCODE = 'duplicate_table',
+			HINT = CASE WHEN there->'finished' = 'false'
+				THEN 'It was begun with other arguments: call with those to go on, or drop it.'
+				ELSE 'Drop it first or choose another name; typify_refresh_scale derives a layer anew.' END;
+	END IF;
+	SELECT json_object_agg(key, value) INTO definition
+	FROM (SELECT key, value FROM json_each(definition) UNION ALL SELECT 'finished', 'false') AS pair;
+	layer := typify_layer_create_table(layer_name, definition,
+		typify_layer_geometry((definition->>'lod25')::regclass, (definition->>'geom_column')::name));
+	IF typify_layer_is_calibrated(definition::jsonb) THEN
+		PERFORM typify_layer_keep_shares(layer, jsonb_build_object('lod200', typify_layer_shares(definition::jsonb),
+			'calibration', typify_layer_calibration(definition::jsonb)));
+	END IF;
+	RETURN layer;
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_begin(name, text, json, integer) IS
+'The table that typify_build_scale fills: made now with "finished": false in its comment, or the one that an earlier call with the same arguments left unfinished. Error 42P07 for any other relation of that name.';
+
+CREATE FUNCTION typify_layer_groups(layer regclass) RETURNS text[]
+LANGUAGE plpgsql STABLE
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	definition jsonb := typify_layer(layer);
+	groups text[];
+BEGIN
+	EXECUTE format('SELECT array_agg(grp ORDER BY grp COLLATE "C") FROM (SELECT DISTINCT grp FROM %s AS b) AS g',
+		typify_layer_source(definition)) INTO groups;
+	RETURN coalesce(groups, '{}');
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_groups(regclass) IS
+'The groups of the buildings from which a layer is derived, sorted by their bytes, the NULL group last.';
+
+CREATE FUNCTION typify_layer_batch(layer regclass, groups text[]) RETURNS TABLE (id bigint, geom geometry,
+	member_count integer, members bigint[], area double precision, width double precision, length double precision,
+	orientation double precision, grp text)
+LANGUAGE plpgsql STABLE
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	definition jsonb := typify_layer(layer);
+	calibration jsonb := typify_layer_comment(typify_layer_shares_index(layer))->'calibration';
+	base typify_options := jsonb_populate_record(NULL::typify_options, nullif(definition->'options', 'null'));
+	keys text[];
+	options typify_options[];
+BEGIN
+	SELECT array_agg(typify_group_key(one.grp) ORDER BY place),
+		array_agg(typify_options_with(base, (fit->>0)::float8, (fit->>1)::float8, base.count) ORDER BY place)
+	INTO keys, options
+	FROM unnest(groups) WITH ORDINALITY AS one (grp, place)
+	LEFT JOIN (
+		SELECT typify_group_key(entry->>0) AS key, jsonb_build_array(entry->1, entry->2) AS own
+		FROM jsonb_array_elements(calibration->'groups') AS entry
+	) AS listed ON key = typify_group_key(one.grp),
+	LATERAL (SELECT coalesce(own, calibration->'overall') AS fit) AS fits;
+	RETURN QUERY
+	SELECT p.*, groups[place] FROM typify_each_group(typify_layer_source(definition), (definition->>'scale')::float8,
+		(definition->>'s_u')::float8, keys, options), unnest(list) AS p;
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_batch(regclass, text[]) IS
+'The rows of some groups of a table that is being built, with the calibration found when it was begun: then it is not done again for every batch.';
+
+CREATE FUNCTION typify_layer_build(layer regclass, groups text[]) RETURNS void
+LANGUAGE plpgsql
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	definition jsonb := typify_layer(layer);
+	calibrated boolean := typify_layer_comment(typify_layer_shares_index(layer)) ? 'calibration';
+BEGIN
+	-- two calls that build the same layer at the same time take turns, and neither repeats what the other did
+	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
+	EXECUTE format('SELECT array_agg(grp ORDER BY place) FROM unnest($1) WITH ORDINALITY AS todo (grp, place) '
+		'WHERE CASE WHEN grp IS NULL THEN NOT EXISTS (SELECT FROM %1$s AS done WHERE done.grp IS NULL) '
+		'ELSE NOT EXISTS (SELECT FROM %1$s AS done WHERE done.grp = todo.grp) END', layer) INTO groups USING groups;
+	IF groups IS NOT NULL THEN
+		PERFORM typify_layer_replace(layer, groups, CASE WHEN calibrated AND definition->>'allocation' = 'each_group'
+			THEN format('typify_layer_batch(%s::regclass, $1)', layer::oid)
+			ELSE typify_layer_call(definition, 'typify_derive', ', groups => $1') END);
+	END IF;
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_build(regclass, text[]) IS
+'One batch of typify_build_scale: derives those of the groups that have no rows yet.';
+
+CREATE FUNCTION typify_layer_complete(layer regclass) RETURNS void
+LANGUAGE plpgsql
+SET search_path FROM CURRENT AS
+$$
+BEGIN
+	PERFORM typify_layer_keep_shares(layer, typify_layer_comment(typify_layer_shares_index(layer)) - 'calibration');
+	PERFORM typify_layer_finish(layer);
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_complete(regclass) IS 'The end of typify_build_scale: the layer is one like any other.';
+
+-- A procedure that commits cannot set a search_path: everything here names its schema. The calls before the first
+-- COMMIT leave nothing behind when they fail.
+CREATE PROCEDURE typify_build_scale(
+	name text,
+	lod25 regclass,
+	lod200 regclass,
+	scale double precision,
+	s_u double precision DEFAULT 0,
+	group_by name DEFAULT NULL,
+	options typify_options DEFAULT NULL,
+	allocation text DEFAULT 'each_group',
+	id_column name DEFAULT 'id',
+	geom_column name DEFAULT 'geom',
+	lod200_geom_column name DEFAULT 'geom',
+	lod200_group_by name DEFAULT NULL,
+	links regclass DEFAULT NULL,
+	batch integer DEFAULT 1000)
+LANGUAGE plpgsql AS
+$$
+DECLARE
+	layer pg_catalog.regclass := @extschema@.typify_layer_begin(pg_catalog.current_schema(), name,
+		@extschema@.typify_layer_definition(lod25, lod200, scale, s_u, group_by, options, allocation, id_column,
+			geom_column, lod200_geom_column, lod200_group_by, links), batch);
+	groups pg_catalog.text[] := @extschema@.typify_layer_groups(layer);
+	number pg_catalog.int4 := pg_catalog.cardinality(groups);
+	done pg_catalog.int4 := 0;
+BEGIN
+	WHILE done < number LOOP
+		PERFORM @extschema@.typify_layer_build(layer, groups[done + 1 : done + batch]);
+		COMMIT;
+		done := least(done + batch, number);
+		RAISE NOTICE '% of % groups (% %%)', done, number, 100 * done / number;
+	END LOOP;
+	PERFORM @extschema@.typify_layer_complete(layer);
+	COMMIT;
+END
+$$;
+
+COMMENT ON PROCEDURE typify_build_scale(text, regclass, regclass, double precision, double precision, name,
+	typify_options, text, name, name, name, name, regclass, integer) IS
+'Creates the layer that typify_create_scale creates with kind => ''table'', group by group: batch groups at a time, a COMMIT after each, and a NOTICE that says how many are done. After a stop (cancelled, failed, connection lost) the table stays with what is done and "finished": false in its comment; calling with the same arguments goes on with the groups that have no rows yet. Calibration is done once, at the beginning. The buildings should not change until it is finished; if they did, typify_refresh_scale or typify_refresh_groups sets it right. With allocation => ''total'' the counts of all groups are found again for every batch: choose a large one. CALL it outside a transaction block (2D000 inside). Other errors: as of typify_create_scale; 22023 for a batch below 1.';
