@@ -89,8 +89,9 @@ LANGUAGE plpgsql STABLE
 SET search_path FROM CURRENT AS
 $$
 DECLARE
-	comment jsonb := obj_description(relation, 'pg_class');
+	comment jsonb;
 BEGIN
+	comment := obj_description(relation, 'pg_class');
 	RETURN CASE jsonb_typeof(comment) WHEN 'object' THEN comment END;
 EXCEPTION WHEN invalid_text_representation THEN
 	RETURN NULL;
@@ -236,7 +237,8 @@ COMMENT ON FUNCTION typify_layer_source(jsonb) IS
 
 CREATE FUNCTION typify_layer_shares(definition jsonb) RETURNS jsonb
 LANGUAGE plpgsql STABLE
-SET search_path FROM CURRENT AS
+SET search_path FROM CURRENT
+SET jit = off AS
 $$
 DECLARE
 	shares jsonb;
@@ -341,8 +343,9 @@ BEGIN
 	IF kind IS NULL THEN
 		PERFORM typify_refuse_null('kind');
 	ELSIF kind NOT IN ('materialized view', 'table') THEN
-		RAISE EXCEPTION 'kind is "%"', kind USING ERRCODE = 'invalid_parameter_value',
-			HINT = 'It must be ''materialized view'' or ''table''.';
+		RAISE EXCEPTION 'kind is "%", it must be materialized view or table', kind
+			USING ERRCODE = 'invalid_parameter_value',
+			HINT = 'A materialized view can be refreshed while it is read, a table also group by group.';
 	ELSIF layer IS NOT NULL THEN
 		RAISE EXCEPTION '% exists already', layer_name USING ERRCODE = 'duplicate_table',
 			HINT = 'Drop it first or choose another name; typify_refresh_scale derives a layer anew.';
@@ -500,8 +503,8 @@ BEGIN
 	IF batch IS NULL THEN
 		PERFORM typify_refuse_null('batch');
 	ELSIF batch < 1 THEN
-		RAISE EXCEPTION 'batch is %', batch USING ERRCODE = 'invalid_parameter_value',
-			HINT = 'It must be at least 1: so many groups are derived between two commits.';
+		RAISE EXCEPTION 'batch is %, it must be at least 1', batch USING ERRCODE = 'invalid_parameter_value',
+			HINT = 'So many groups are derived between two commits: leave it out for 1000.';
 	END IF;
 	IF layer IS NOT NULL THEN
 		IF there->'finished' = 'false' AND there - 'finished' - 'typify' = definition::jsonb - 'typify' THEN
@@ -554,21 +557,20 @@ DECLARE
 	definition jsonb := typify_layer(layer);
 	calibration jsonb := typify_layer_comment(typify_layer_shares_index(layer))->'calibration';
 	base typify_options := jsonb_populate_record(NULL::typify_options, nullif(definition->'options', 'null'));
-	keys text[];
-	options typify_options[];
+	given typify_calibration[];
 BEGIN
-	SELECT array_agg(typify_group_key(one.grp) ORDER BY place),
-		array_agg(typify_options_with(base, (fit->>0)::float8, (fit->>1)::float8, base.count) ORDER BY place)
-	INTO keys, options
-	FROM unnest(groups) WITH ORDINALITY AS one (grp, place)
+	SELECT array_agg(ROW(one.grp, NULL, NULL, NULL, NULL, NULL, NULL, NULL,
+		typify_options_with(base, (fit->>0)::float8, (fit->>1)::float8, base.count), NULL, NULL)::typify_calibration)
+	INTO given
+	FROM unnest(groups) AS one (grp)
 	LEFT JOIN (
 		SELECT typify_group_key(entry->>0) AS key, jsonb_build_array(entry->1, entry->2) AS own
 		FROM jsonb_array_elements(calibration->'groups') AS entry
-	) AS listed ON key = typify_group_key(one.grp),
-	LATERAL (SELECT coalesce(own, calibration->'overall') AS fit) AS fits;
+	) AS listed ON key = typify_group_key(one.grp)
+	CROSS JOIN LATERAL (SELECT coalesce(own, calibration->'overall') AS fit) AS fits;
 	RETURN QUERY
-	SELECT p.*, groups[place] FROM typify_each_group(typify_layer_source(definition), (definition->>'scale')::float8,
-		(definition->>'s_u')::float8, keys, options), unnest(list) AS p;
+	SELECT p.*, g.grp FROM typify_each_group(typify_layer_source(definition), (definition->>'scale')::float8,
+		(definition->>'s_u')::float8, given, true) AS g, unnest(g.list) AS p;
 END
 $$;
 

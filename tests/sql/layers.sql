@@ -1,11 +1,12 @@
 -- layers.sql: one stored layer per scale - created, refreshed as a whole and by groups, built in batches
 \pset null '(null)'
+\set SHOW_CONTEXT never
+CREATE SCHEMA typify_layers;
+SET search_path = typify_layers, public;
 \i tests/data/error_of.sql
 \i tests/data/edits.sql
 
 -- 300 buildings in 11 blocks and the NULL block; LOD200 has nothing in block 4 and nothing in the NULL block
-CREATE SCHEMA typify_layers;
-SET search_path = typify_layers, public;
 CREATE TABLE lod25 (id bigint PRIMARY KEY, block integer, geom geometry(Polygon, 25832));
 INSERT INTO lod25
 SELECT i, nullif(i % 12, 0), ST_MakeEnvelope(x, y, x + 6 + i % 11, y + 7 + i % 7, 25832)
@@ -23,7 +24,7 @@ SELECT typify_create_scale('layer75', 'lod25', 'lod200', 75000, 0.5, 'block') AS
 SELECT typify_create_scale('layer75_table', 'lod25', 'lod200', 75000, 0.5, group_by => 'block', kind => 'table') AS layer;
 SELECT layer, count(*) AS placeholders, sum(member_count) AS members, count(DISTINCT id) = count(*) AS unique_ids, count(DISTINCT grp) AS groups,
 	pg_temp.differing(layer::regclass, 'SELECT * FROM typify_derive(''lod25'', ''lod200'', 75000, 0.5, ''block'')') AS differing
-FROM (SELECT 'layer75' AS layer, l.* FROM layer75 AS l UNION ALL SELECT 'layer75_table', l.* FROM layer75_table AS l) AS both GROUP BY layer ORDER BY layer;
+FROM (SELECT 'layer75' AS layer, l.* FROM layer75 AS l UNION ALL SELECT 'layer75_table', l.* FROM layer75_table AS l) AS either GROUP BY layer ORDER BY layer;
 SELECT relname, relkind, a.attname, format_type(a.atttypid, a.atttypmod)
 FROM pg_class JOIN pg_attribute AS a ON attrelid = pg_class.oid WHERE relname ~ '^layer75' AND relkind IN ('r', 'm') AND attnum > 0 ORDER BY relname, attnum;
 SELECT tablename, regexp_replace(indexdef, '^.* ON ', '') AS index, indexdef ~ 'UNIQUE' AS is_unique FROM pg_indexes WHERE tablename ~ '^layer75' ORDER BY 1, 2;
@@ -101,7 +102,8 @@ SELECT * FROM pg_temp.rounds('fixed', 'SELECT * FROM typify_derive(''lod25'', NU
 SELECT typify_refresh_scale('nearest');
 -- an edit of LOD200 is noticed by itself
 UPDATE lod200 SET geom = ST_Expand(geom, 10) WHERE id = 71;
-SELECT pg_temp.differing('nearest', 'SELECT * FROM typify_derive(''lod25'', ''lod200_without_block'', 100000, 0, ''block'')') > 0 AS stale, typify_refresh_groups('nearest', '{}') > 0 AS rows;
+SELECT pg_temp.differing('nearest', 'SELECT * FROM typify_derive(''lod25'', ''lod200_without_block'', 100000, 0, ''block'')') > 0 AS stale;
+SELECT typify_refresh_groups('nearest', '{}') > 0 AS rows;
 SELECT pg_temp.differing('nearest', 'SELECT * FROM typify_derive(''lod25'', ''lod200_without_block'', 100000, 0, ''block'')') AS differing;
 -- only what is named, and what depends on it, is written: here just one group, then none
 SELECT count(*) AS rows_before FROM fixed WHERE grp = '7';
@@ -109,9 +111,11 @@ SELECT typify_refresh_groups('fixed', '{7}') = count(*) AS as_many FROM fixed WH
 SELECT typify_refresh_groups('fixed', '{no such group}') AS rows, typify_refresh_groups('fixed', '{}') AS none;
 -- a group that is gone loses its rows; the NULL group
 DELETE FROM lod25 WHERE block = 7;
-SELECT typify_refresh_groups('fixed', '{7}') AS rows, (SELECT count(*) FROM fixed WHERE grp = '7') AS left_over;
+SELECT typify_refresh_groups('fixed', '{7}') AS rows;
+SELECT count(*) AS left_over FROM fixed WHERE grp = '7';
 UPDATE lod25 SET block = NULL WHERE block = 8;
-SELECT typify_refresh_groups('fixed', ARRAY['8', NULL]) > 0 AS rows, pg_temp.differing('fixed', 'SELECT * FROM typify_derive(''lod25'', NULL, 75000, 1, ''block'')') AS differing;
+SELECT typify_refresh_groups('fixed', ARRAY['8', NULL]) > 0 AS rows;
+SELECT pg_temp.differing('fixed', 'SELECT * FROM typify_derive(''lod25'', NULL, 75000, 1, ''block'')') AS differing;
 -- a table whose index on grp, with what it remembers, is gone is refreshed as a whole
 DROP INDEX nearest_grp_idx;
 SELECT typify_refresh_groups('nearest', '{1}') = count(*) AS all_of_them FROM nearest;
@@ -129,8 +133,98 @@ SELECT pg_temp.differing('built', 'TABLE layer75') AS built, pg_temp.differing('
 SELECT obj_description('built'::regclass) = obj_description('layer75'::regclass) AS same_comment,
 	(SELECT array_agg(regexp_replace(indexdef, '^.* ON [^ ]+', '') ORDER BY 1) FROM pg_indexes WHERE tablename = 'built') = (SELECT array_agg(regexp_replace(indexdef, '^.* ON [^ ]+', '') ORDER BY 1) FROM pg_indexes WHERE tablename = 'layer75_table') AS same_indexes;
 -- and it is refreshed by groups like any other
-SELECT typify_refresh_groups('built', '{1}') > 0 AS rows, pg_temp.differing('built', 'TABLE layer75') AS differing;
--- stopped after two batches by an id that occurs twice; other arguments do not go on with it; the same do
-CREATE TABLE broken AS SELECT id, block, CASE WHEN block = 6 AND id > 250 THEN ST_SetSRID(geom, 25833) ELSE geom::geometry END AS geom FROM lod25;
-ALTER TABLE broken ADD PRIMARY KEY (id);
-CALL typify_build_scale('stopped', 'broken', NULL, 75000, 0.5, 'block', batch => 3);
+SELECT typify_refresh_groups('built', '{1}') > 0 AS rows;
+SELECT pg_temp.differing('built', 'TABLE layer75') AS differing;
+-- stopped after two batches: what is done stays, and says that it is not all. Other arguments do not go on with it,
+-- the same ones do
+CREATE FUNCTION go_on() RETURNS boolean LANGUAGE plpgsql AS
+$$
+BEGIN
+	IF to_regclass('typify_layers.stopped') IS NOT NULL AND current_setting('typify_test.stop') = 'on' THEN
+		IF (SELECT count(DISTINCT grp) FROM typify_layers.stopped) >= 6 THEN
+			RAISE EXCEPTION 'stopped by the test';
+		END IF;
+	END IF;
+	RETURN true;
+END
+$$;
+CREATE VIEW stopping AS SELECT id, block, geom FROM lod25 WHERE go_on();
+SET typify_test.stop = on;
+CALL typify_build_scale('stopped', 'stopping', 'lod200', 75000, 0.5, 'block', batch => 3);
+SELECT count(DISTINCT grp) AS groups, obj_description('stopped'::regclass)::jsonb->'finished' AS finished FROM stopped;
+SET typify_test.stop = off;
+SELECT pg_temp.error_of('SELECT typify_refresh_groups(''stopped'', ''{1}'')');
+SELECT pg_temp.error_of('CALL typify_build_scale(''stopped'', ''stopping'', ''lod200'', 75000, 0.6, ''block'')');
+SELECT pg_temp.error_of('SELECT typify_create_scale(''stopped'', ''stopping'', ''lod200'', 75000, 0.5, ''block'')');
+CALL typify_build_scale('stopped', 'stopping', 'lod200', 75000, 0.5, 'block', batch => 5);
+SELECT pg_temp.differing('stopped', 'TABLE layer75') AS differing, obj_description('stopped'::regclass)::jsonb ? 'finished' AS unfinished;
+SELECT pg_temp.error_of('CALL typify_build_scale(''stopped'', ''stopping'', ''lod200'', 75000, 0.5, ''block'')');
+-- a failure in the first batch leaves nothing; nor does a call inside a transaction block
+CALL typify_build_scale('never', 'lod25', NULL, 20000, 0.5, 'block');
+SELECT pg_temp.error_of('CALL typify_build_scale(''never'', ''lod25'', NULL, 75000, 0.5, ''block'')');
+SELECT to_regclass('never') AS never;
+
+-- dropped by DROP, which takes the comment along; what a materialized view is derived from cannot be dropped under it
+DROP TABLE stopped;
+SELECT pg_temp.error_of('DROP TABLE lod200');
+
+-- a name is written as in SQL
+CREATE SCHEMA "typify Layers";
+SELECT typify_create_scale('"typify Layers"."Layer 75.5 ""x"""', 'lod25', NULL, 75500, kind => 'table') AS layer;
+SELECT typify_refresh_scale('"typify Layers"."Layer 75.5 ""x"""');
+CALL typify_build_scale('"typify Layers"."Built 75.5"', 'lod25', NULL, 75500);
+SELECT typify_create_scale('MixedCase', 'lod25', NULL, 75500) AS folded;
+SELECT pg_temp.differing('"typify Layers"."Built 75.5"', 'TABLE "typify Layers"."Layer 75.5 ""x"""') AS differing;
+
+-- what is wrong says so
+SELECT n AS name, pg_temp.error_of(format('SELECT typify_create_scale(%L, ''lod25'', NULL, 75000)', n)) AS error
+FROM unnest(ARRAY[NULL, '', 'a.b.c', 'two words', '1st', 'a.', '"open', 'no_such_schema.a', 'layer75', 'lod25', 'links', repeat('x', 64)]) WITH ORDINALITY AS n (n, number) ORDER BY number;
+SELECT a AS arguments, pg_temp.error_of(format('SELECT typify_create_scale(''wrong'', %s)', a)) AS error
+FROM unnest(ARRAY['NULL, NULL, 75000', '''lod25'', NULL, NULL', '''lod25'', NULL, 75000, NULL', '''lod25'', NULL, 75000, kind => NULL',
+	'''lod25'', NULL, 75000, kind => ''view''', '''lod25'', NULL, 75000, kind => ''TABLE''', '''lod25'', NULL, 75000, allocation => NULL',
+	'''lod25'', NULL, 75000, allocation => ''fair''', '''lod25'', NULL, 75000, id_column => NULL', '''lod25'', NULL, 75000, geom_column => NULL',
+	'''lod25'', NULL, 75000, lod200_geom_column => NULL', '''lod25'', NULL, 75000, id_column => ''no''', '''lod25'', NULL, 75000, geom_column => ''id''',
+	'''lod25'', NULL, 75000, group_by => ''no''', '''no_such_table'', NULL, 75000', '''lod25_pkey'', NULL, 75000', '1, NULL, 75000', '''lod25'', ''lod200_pkey'', 75000',
+	'''lod25'', NULL, 24999', '''lod25'', NULL, 75000, 2', '''lod25'', NULL, 75000, options => typify_options(min_side => 0.35)']) WITH ORDINALITY AS a (a, number)
+ORDER BY number;
+SELECT pg_temp.error_of('CALL typify_build_scale(''wrong'', ''lod25'', NULL, 75000, batch => 0)'), pg_temp.error_of('CALL typify_build_scale(''wrong'', ''lod25'', NULL, 75000, batch => NULL)');
+SELECT pg_temp.error_of('CALL typify_build_scale(''layer75'', ''lod25'', NULL, 75000)'), pg_temp.error_of('CALL typify_build_scale(''lod25'', ''lod25'', NULL, 75000)');
+SELECT to_regclass('wrong') AS wrong;
+CREATE TEMP TABLE passing AS TABLE lod25;
+SELECT regexp_replace(pg_temp.error_of('SELECT typify_create_scale(''wrong'', ''passing'', NULL, 75000)'), 'pg_temp_[0-9]+', 'pg_temp_...');
+BEGIN;
+SELECT typify_create_scale('of_passing', 'passing', NULL, 75000, kind => 'table') AS layer;
+ROLLBACK;
+SET search_path = no_such_schema;
+SELECT public.typify_create_scale('wrong', 'typify_layers.lod25', NULL, 75000);
+SET search_path = typify_layers, public;
+
+-- refreshing what is no layer, or not in that way
+COMMENT ON TABLE links IS 'Which building goes with which object';
+COMMENT ON TABLE lod200 IS '{"a": 1}';
+SELECT n AS name, pg_temp.error_of(format('SELECT typify_refresh_scale(%L)', n)) AS scale, pg_temp.error_of(format('SELECT typify_refresh_groups(%L, ''{1}'')', n)) AS groups
+FROM unnest(ARRAY[NULL, 'lod25', 'links', 'lod200', 'lod25_pkey', 'no_such_layer', '1']) WITH ORDINALITY AS n (n, number) ORDER BY number;
+SELECT pg_temp.error_of('SELECT typify_refresh_scale(''built'', NULL)');
+SELECT pg_temp.error_of('SELECT typify_refresh_scale(''built'', true)');
+SELECT pg_temp.error_of('SELECT typify_refresh_groups(''built'', NULL)');
+SELECT pg_temp.error_of('SELECT typify_refresh_groups(''layer75'', ''{1}'')');
+SELECT pg_temp.error_of('SELECT typify_refresh_groups(''built_total'', ''{1}'')');
+-- a building that came from a group that is not named
+CREATE TABLE pair AS SELECT i AS id, i AS block, ST_MakeEnvelope(i * 20, 0, i * 20 + 10, 10) AS geom FROM generate_series(1, 2) AS i;
+SELECT typify_create_scale('pair75', 'pair', NULL, 75000, 0, 'block', 'table') AS layer;
+UPDATE pair SET block = 2;
+SELECT pg_temp.error_of('SELECT typify_refresh_groups(''pair75'', ''{2}'')');
+SELECT typify_refresh_groups('pair75', '{1, 2}') AS both;
+SELECT id, members, grp FROM pair75;
+-- the source is gone, or its column
+ALTER TABLE pair RENAME TO pair_elsewhere;
+SELECT pg_temp.error_of('SELECT typify_refresh_scale(''pair75'')') AS scale, pg_temp.error_of('SELECT typify_refresh_groups(''pair75'', ''{1}'')') AS groups;
+ALTER TABLE pair_elsewhere RENAME TO pair;
+ALTER TABLE pair DROP COLUMN block;
+SELECT pg_temp.error_of('SELECT typify_refresh_scale(''pair75'')') AS scale;
+-- a materialized view follows its table by itself
+ALTER TABLE lod25 RENAME TO detailed;
+SELECT typify_refresh_scale('layer75');
+
+SET client_min_messages = warning;
+DROP SCHEMA typify_layers, "typify Layers" CASCADE;
