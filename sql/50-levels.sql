@@ -71,7 +71,31 @@ END $$;
 COMMENT ON FUNCTION typify_column_name(regclass, name, text, text) IS
 'The name of a column, quoted for SQL, after a look at its type. kind: integer (smallint, integer, bigint), geometry or any; domains over them count. argument: the argument that the hint tells to set. Errors: 22004 for NULL, 42703 for a column that is not there, 42804 for one of another type.';
 
-CREATE FUNCTION typify_lod25_source(lod25 regclass, id_column name, geom_column name, group_by name, links regclass)
+-- The text of a number or a word is the same where they are equal, so that an index on the column finds the groups; of
+-- other types that is not certain.
+CREATE FUNCTION typify_group_condition(relation regclass, column_name name, alias text, groups text[]) RETURNS text
+LANGUAGE plpgsql STABLE PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	type oid := (SELECT atttypid FROM pg_attribute WHERE attrelid = relation AND attname = column_name);
+	condition text := format('%s.%I = ANY (%%L::%%s)', alias, column_name);
+BEGIN
+	IF groups IS NULL OR array_position(groups, NULL) IS NOT NULL THEN
+		RETURN 'true';
+	ELSIF type IN ('int2'::regtype, 'int4'::regtype, 'int8'::regtype) THEN
+		RETURN format(condition, ARRAY(SELECT grp FROM unnest(groups) AS grp WHERE grp ~ '^(0|-?[1-9][0-9]{0,17})$'),
+			'bigint[]');
+	ELSIF type IN ('text'::regtype, 'varchar'::regtype) THEN
+		RETURN format(condition, groups, 'text[]');
+	END IF;
+	RETURN 'true';
+END $$;
+COMMENT ON FUNCTION typify_group_condition(regclass, name, text, text[]) IS
+'A condition on a column that holds at least for the rows of the groups, and that an index on it may serve; true where there is none, and for groups NULL, which means all. alias: of the table.';
+
+CREATE FUNCTION typify_lod25_source(lod25 regclass, id_column name, geom_column name, group_by name, links regclass,
+	groups text[] DEFAULT NULL)
 RETURNS text
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
@@ -82,6 +106,7 @@ DECLARE
 	geom text := typify_column_name(lod25, geom_column, 'geometry', 'geom_column');
 	grp text := 'NULL';
 	link text := '';
+	condition text := 'true';
 BEGIN
 	IF links IS NOT NULL THEN
 		IF group_by IS NOT NULL THEN
@@ -91,15 +116,17 @@ BEGIN
 		grp := 'l.' || typify_column_name(links, 'lod200_id', 'integer', 'links');
 		link := format(' LEFT JOIN %s AS l ON l.%s = b.%s', typify_table_name(links, 'links'),
 			typify_column_name(links, 'lod25_id', 'integer', 'links'), id);
+		condition := typify_group_condition(links, 'lod200_id', 'l', groups);
 	ELSIF group_by IS NOT NULL THEN
 		grp := 'b.' || typify_column_name(lod25, group_by, 'any', 'group_by');
+		condition := typify_group_condition(lod25, group_by, 'b', groups);
 	END IF;
-	RETURN format('(SELECT b.%1$s::bigint AS id, b.%2$s::%6$s AS geom, %3$s::text AS grp FROM %4$s AS b%5$s '
-		'WHERE b.%2$s IS NOT NULL AND NOT ST_IsEmpty(b.%2$s))', id, geom, grp, table_name, link,
-		'geometry'::regtype);
+	RETURN format('(SELECT b.%1$s::bigint AS id, b.%2$s::%6$s AS geom, %3$s::text COLLATE "C" AS grp FROM %4$s AS b%5$s '
+		'WHERE b.%2$s IS NOT NULL AND NOT ST_IsEmpty(b.%2$s) AND %7$s)', id, geom, grp, table_name, link,
+		'geometry'::regtype, condition);
 END $$;
-COMMENT ON FUNCTION typify_lod25_source(regclass, name, name, name, regclass) IS
-'The sub-select of the buildings of a table as typify_derive takes them: id bigint, geom, grp text, without those whose geometry is NULL or EMPTY. grp is the column group_by as text, or lod200_id of links (a table or view with lod25_id and lod200_id), or NULL. Errors: as of typify_table_name and typify_column_name; 22023 for links together with group_by.';
+COMMENT ON FUNCTION typify_lod25_source(regclass, name, name, name, regclass, text[]) IS
+'The sub-select of the buildings of a table as typify_derive takes them: id bigint, geom, grp text, without those whose geometry is NULL or EMPTY. grp is the column group_by as text, or lod200_id of links (a table or view with lod25_id and lod200_id), or NULL. groups: at least these groups; NULL for all. Errors: as of typify_table_name and typify_column_name; 22023 for links together with group_by.';
 
 CREATE FUNCTION typify_has_column(relation regclass, column_name name) RETURNS boolean
 LANGUAGE sql STABLE PARALLEL SAFE
@@ -116,7 +143,7 @@ AS $$
 DECLARE
 	geom text := typify_column_name(lod200, geom_column, 'geometry', 'lod200_geom_column');
 BEGIN
-	RETURN format('(SELECT c.%1$s::%4$s AS geom, %2$s::text AS grp FROM %3$s AS c '
+	RETURN format('(SELECT c.%1$s::%4$s AS geom, %2$s::text COLLATE "C" AS grp FROM %3$s AS c '
 		'WHERE c.%1$s IS NOT NULL AND NOT ST_IsEmpty(c.%1$s))', geom,
 		coalesce('c.' || quote_ident(group_column), 'NULL'), typify_table_name(lod200, 'lod200'),
 		'geometry'::regtype);
@@ -132,6 +159,7 @@ LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
 AS $$
 BEGIN
+	PERFORM typify_table_name(lod200, 'lod200');
 	IF lod200_group_by IS NOT NULL AND group_by IS NULL AND links IS NULL THEN
 		RAISE EXCEPTION 'lod200_group_by is given without group_by'
 			USING ERRCODE = '22023', HINT = 'Name the column of lod25 with group_by => ''...''.';
@@ -155,15 +183,18 @@ END $$;
 COMMENT ON FUNCTION typify_lod200_groups(text, regclass, name, name, name, name, regclass) IS
 'The sub-select of the objects of LOD200 with their groups: geom, grp text. With links, the group of an object is its key, the column lod200_group_by or else id_column. Else it is the column lod200_group_by, or the column that group_by names if LOD200 has it, or the group of the building nearest to the object''s centroid, of equally near ones the one with the smallest id (a GiST index on the buildings makes that fast). Without group_by it is NULL. Errors: as of typify_table_name and typify_column_name; 22023 for lod200_group_by without group_by.';
 
-CREATE FUNCTION typify_source_srid(source text, argument text) RETURNS integer
+CREATE FUNCTION typify_source_srid(source text, relation regclass, geom_column name, argument text) RETURNS integer
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
 AS $$
 DECLARE
-	low integer;
-	high integer;
+	low integer := (SELECT nullif(postgis_typmod_srid(atttypmod), 0) FROM pg_attribute
+		WHERE attrelid = relation AND attname = geom_column AND atttypid = 'geometry'::regtype AND atttypmod >= 0);
+	high integer := low;
 BEGIN
-	EXECUTE format('SELECT min(ST_SRID(geom)), max(ST_SRID(geom)) FROM %s AS b', source) INTO low, high;
+	IF low IS NULL THEN
+		EXECUTE format('SELECT min(ST_SRID(geom)), max(ST_SRID(geom)) FROM %s AS b', source) INTO low, high;
+	END IF;
 	IF low <> high THEN
 		RAISE EXCEPTION 'the geometries of % have two SRIDs, % and %', argument, low, high
 			USING ERRCODE = '22023', HINT = 'Use ST_Transform to bring them into one coordinate system.';
@@ -172,8 +203,8 @@ BEGIN
 	PERFORM typify_rectangle(ST_SetSRID(ST_MakePoint(0, 0), low), 1, 1, 0);
 	RETURN low;
 END $$;
-COMMENT ON FUNCTION typify_source_srid(text, text) IS
-'The SRID of the geometries of a sub-select (as typify_lod25_source makes it), NULL when it has no row. Errors: 22023 for two of them and for one that is geographic or geocentric.';
+COMMENT ON FUNCTION typify_source_srid(text, regclass, name, text) IS
+'The SRID of a geometry column: the one in its type, else that of the geometries of the sub-select (as typify_lod25_source makes it), NULL when it has no row. argument: what the error calls the table. Errors: 22023 for two of them and for one that is geographic or geocentric.';
 
 CREATE FUNCTION typify_check_ids(source text, lod25 regclass, id_column name, links regclass) RETURNS void
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
@@ -205,16 +236,18 @@ END $$;
 COMMENT ON FUNCTION typify_check_ids(text, regclass, name, regclass) IS
 'Refuses (22023) buildings of which two have one id, and links that name one building twice. Where a unique index says so already, nothing is read.';
 
-CREATE FUNCTION typify_check_sources(lod25_source text, lod200_source text, box geometry) RETURNS void
+CREATE FUNCTION typify_check_srids(lod25_source text, lod25 regclass, geom_column name, lod200 regclass,
+	lod200_geom_column name, box geometry) RETURNS void
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
 AS $$
 DECLARE
-	srid integer := typify_source_srid(lod25_source, 'lod25');
+	srid integer := typify_source_srid(lod25_source, lod25, geom_column, 'lod25');
 	lod200_srid integer;
 BEGIN
-	IF lod200_source IS NOT NULL THEN
-		lod200_srid := typify_source_srid(lod200_source, 'lod200');
+	IF lod200 IS NOT NULL THEN
+		lod200_srid := typify_source_srid(typify_lod200_source(lod200, lod200_geom_column, NULL), lod200,
+			lod200_geom_column, 'lod200');
 	END IF;
 	IF srid <> lod200_srid THEN
 		RAISE EXCEPTION 'the geometries of lod25 have SRID %, those of lod200 SRID %', srid, lod200_srid
@@ -224,5 +257,5 @@ BEGIN
 			USING ERRCODE = '22023', HINT = 'Use ST_Transform on box, or ST_MakeEnvelope with the SRID.';
 	END IF;
 END $$;
-COMMENT ON FUNCTION typify_check_sources(text, text, geometry) IS
-'Refuses (22023) two levels of detail, and a box, that are not in one projected coordinate system. lod200_source and box may be NULL.';
+COMMENT ON FUNCTION typify_check_srids(text, regclass, name, regclass, name, geometry) IS
+'Refuses (22023) two levels of detail, and a box, that are not in one projected coordinate system. lod200 and box may be NULL.';

@@ -59,7 +59,15 @@ COMMENT ON FUNCTION typify_check_parameters(double precision, double precision, 
 CREATE FUNCTION typify_group_key(grp text) RETURNS text
 LANGUAGE sql IMMUTABLE PARALLEL SAFE
 RETURN coalesce('=' || grp, '');
-COMMENT ON FUNCTION typify_group_key(text) IS 'Text that is never NULL and differs where groups differ: = and the group, or nothing for NULL';
+COMMENT ON FUNCTION typify_group_key(text) IS
+'Text that is never NULL and differs where groups differ: = and the group, or nothing for NULL';
+
+CREATE FUNCTION typify_group_keys(groups text[]) RETURNS text[]
+LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT coalesce(array_agg(DISTINCT typify_group_key(grp)), '{}') FROM unnest(groups) AS grp;
+END;
+COMMENT ON FUNCTION typify_group_keys(text[]) IS 'The different keys (typify_group_key) of groups; NULL for NULL, which means all';
 
 CREATE FUNCTION typify_each_group(source text, scale double precision, s_u double precision,
 	groups typify_calibration[], grouped boolean)
@@ -187,12 +195,13 @@ AS $$
 DECLARE
 	m25 double precision := coalesce(given.source_scale, 25000);
 	m200 double precision := coalesce(given.lod200_scale, 200000);
-	lawful boolean := given.exponent IS NULL AND given.count IS NULL AND (given.count_rule = 'radical'
-		OR given.count_rule IS NULL AND coalesce(given.min_distance, 0) = 0);
-	by_ink boolean := given.count IS NULL AND given.count_rule IS NOT DISTINCT FROM 'black_white';
+	rule text := coalesce(given.count_rule, CASE WHEN given.min_distance > 0 THEN 'none' ELSE 'radical' END);
+	lawful boolean := given.exponent IS NULL AND given.count IS NULL AND rule = 'radical';
+	by_ink boolean := given.count IS NULL AND rule = 'black_white';
 	sized boolean := given.psi IS NULL AND given.area_statistic IS DISTINCT FROM 'sum';
 	levels typify_calibration[] := typify_survey(lod25_source, lod200_source);
 	whole typify_calibration := levels[1];
+	keys text[] := typify_group_keys(wanted);
 	measured boolean[];
 	counts bigint[];
 	last_counts bigint[];
@@ -226,10 +235,10 @@ BEGIN
 	IF grouped THEN
 		-- the values of all are only needed where a group has none of its own
 		measured := ARRAY(
-			SELECT NOT l.overall AND l.n25 > 0 AND (all_of_them OR typify_group_key(l.grp) = ANY (wanted))
+			SELECT NOT l.overall AND l.n25 > 0 AND (all_of_them OR typify_group_key(l.grp) = ANY (keys))
 			FROM unnest(levels) WITH ORDINALITY AS l, (
 				SELECT wanted IS NULL OR bool_or(NOT o.calibrated OR o.mean_area200 = 0)
-					FILTER (WHERE typify_group_key(o.grp) = ANY (wanted) AND NOT o.overall AND o.n25 > 0) AS all_of_them
+					FILTER (WHERE typify_group_key(o.grp) = ANY (keys) AND NOT o.overall AND o.n25 > 0) AS all_of_them
 				FROM unnest(levels) AS o) AS need
 			ORDER BY ordinality);
 	END IF;
@@ -255,7 +264,7 @@ BEGIN
 	RETURN levels;
 END $$;
 COMMENT ON FUNCTION typify_calibrate_levels(text, text, double precision, typify_options, boolean, text[], boolean) IS
-'The calibrations of two sub-selects, the whole first; NULL when there is no building. grouped: false for the whole alone. wanted: only these groups (typify_group_key) need psi; NULL for all. report: also find mean_placeholder_area where psi has no use for it. Errors: 22023 for a LOD200 without objects or with more of them than buildings; others as of typify_placeholders.';
+'The calibrations of two sub-selects, the whole first; NULL when there is no building. grouped: false for the whole alone. wanted: only these groups need psi; NULL for all. report: also find mean_placeholder_area where psi has no use for it. Errors: 22023 for a LOD200 without objects or with more of them than buildings; others as of typify_placeholders.';
 
 CREATE FUNCTION typify_calibrate(
 	lod25 regclass,
@@ -272,6 +281,11 @@ RETURNS SETOF typify_calibration
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
 SET jit = off
+SET datestyle = ISO
+SET intervalstyle = postgres
+SET timezone = 'UTC'
+SET bytea_output = hex
+SET extra_float_digits = 1
 AS $$
 DECLARE
 	lod25_source text := typify_lod25_source(lod25, id_column, geom_column, group_by, links);
@@ -279,14 +293,14 @@ DECLARE
 		lod200_group_by, links);
 BEGIN
 	PERFORM typify_check_parameters(coalesce(options.lod200_scale, 200000), s_u, options);
-	PERFORM typify_check_sources(lod25_source, typify_lod200_source(lod200, lod200_geom_column, NULL), NULL);
+	PERFORM typify_check_srids(lod25_source, lod25, geom_column, lod200, lod200_geom_column, NULL);
 	PERFORM typify_check_ids(lod25_source, lod25, id_column, links);
 	RETURN QUERY SELECT * FROM unnest(typify_calibrate_levels(lod25_source, lod200_source, s_u, options,
 		group_by IS NOT NULL OR links IS NOT NULL, NULL, true));
 END $$;
 COMMENT ON FUNCTION typify_calibrate(regclass, regclass, double precision, name, typify_options, name, name, name, name,
 	regclass) IS
-'Takes psi and exponent from two stored levels of detail, for the clusters that s_u and options really make (paper, section on size; spec of the radical law: 2 ln(n25 / n200) / ln(m200 / m25), not below 0): rows of typify_calibration, whose options are ready to pass on. Derived with them, a layer has at m200 exactly the count and, to rounding, the mean area of LOD200, and at m25 the count of LOD25. Without groups one row. With group_by (a column of lod25, of any type) or links (a table or view with lod25_id and lod200_id, as typify_match returns; lod200_id is the group) a first row, overall, for all groups together, then one for each group by the bytes of its name, the NULL group last; calibrated is false where a group has no object of LOD200 or more of them than buildings: it takes the exponent and psi of all. The mean_placeholder_area of all is that of the placeholders of all groups.
+'Takes psi and exponent from two stored levels of detail, for the clusters that s_u and options really make (psi: paper, section on size; exponent: 2 ln(n25 / n200) / ln(m200 / m25), not below 0): rows of typify_calibration, whose options are ready to pass on. Derived with them, a layer has at m200 exactly the count and, to rounding, the mean area of LOD200, and at m25 the count of LOD25. Without groups one row. With group_by (a column of lod25, of any type) or links (a table or view with lod25_id and lod200_id, as typify_match returns; lod200_id is the group) a first row, overall, for all groups together, then one for each group by the bytes of its name, the NULL group last; calibrated is false where a group has no object of LOD200 or more of them than buildings: it takes the exponent and psi of all. The mean_placeholder_area of all is that of the placeholders of all groups.
 Objects of LOD200 belong to the group in their column lod200_group_by (default: the column that group_by names, if LOD200 has it), without one to that of the building nearest to their centroid (of the smallest id among equally near ones); with links, lod200_group_by names their key (default: as id_column).
 What options set is kept: exponent, psi, count; with count, count_rule => ''black_white'' or min_distance alone no exponent is calibrated, since these say how many. With black_white the counts follow from the psi that is calibrated. With area_statistic => ''sum'' no psi is calibrated, since it has no effect. No psi is calibrated from a LOD200 without areas (points, lines).
 The tables are read, never written; id_column (smallint, integer, bigint; different for each building) and the two geometry columns may be named otherwise. NULL and EMPTY geometries do not count. No row when lod25 has no building.

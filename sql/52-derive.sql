@@ -78,21 +78,17 @@ CREATE FUNCTION typify_wanted(source text, groups text[], box geometry) RETURNS 
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
 AS $$
-DECLARE
-	wanted text[] := CASE WHEN groups IS NOT NULL THEN
-		ARRAY(SELECT DISTINCT typify_group_key(grp) FROM unnest(groups) AS grp) END;
 BEGIN
 	IF box IS NOT NULL THEN
 		EXECUTE format(
-			'SELECT coalesce(array_agg(DISTINCT key), ''{}'')
-			FROM (SELECT typify_group_key(grp) AS key FROM %s AS b WHERE geom && $1) AS met
-			WHERE $2 IS NULL OR key = ANY ($2)', source)
-		INTO wanted USING box, wanted;
+			'SELECT coalesce(array_agg(DISTINCT grp), ''{}'') FROM %s AS b
+			WHERE geom && $1 AND ($2 IS NULL OR typify_group_key(grp) = ANY ($2))', source)
+		INTO groups USING box, typify_group_keys(groups);
 	END IF;
-	RETURN wanted;
+	RETURN groups;
 END $$;
 COMMENT ON FUNCTION typify_wanted(text, text[], geometry) IS
-'The keys (typify_group_key) of the groups among the given ones that have a building whose bounding box meets that of box; NULL for all groups, when neither is given.';
+'The groups among the given ones that have a building whose bounding box meets that of box; NULL for all groups, when neither is given.';
 
 CREATE FUNCTION typify_derive(
 	lod25 regclass,
@@ -122,6 +118,11 @@ RETURNS TABLE (
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
 SET jit = off
+SET datestyle = ISO
+SET intervalstyle = postgres
+SET timezone = 'UTC'
+SET bytea_output = hex
+SET extra_float_digits = 1
 AS $$
 #variable_conflict use_column
 DECLARE
@@ -129,6 +130,8 @@ DECLARE
 	source text := typify_lod25_source(lod25, id_column, geom_column, group_by, links);
 	lod200_source text;
 	wanted text[];
+	wanted_source text;
+	keys text[];
 	levels typify_calibration[];
 	allotted bigint[];
 	given typify_calibration[];
@@ -143,17 +146,17 @@ BEGIN
 	IF lod200 IS NOT NULL THEN
 		lod200_source := typify_lod200_groups(source, lod200, id_column, lod200_geom_column, group_by,
 			lod200_group_by, links);
-		PERFORM typify_check_sources(source, typify_lod200_source(lod200, lod200_geom_column, NULL), box);
-	ELSE
-		PERFORM typify_check_sources(source, NULL, box);
 	END IF;
+	PERFORM typify_check_srids(source, lod25, geom_column, lod200, lod200_geom_column, box);
 	PERFORM typify_check_ids(source, lod25, id_column, links);
 
 	wanted := typify_wanted(source, groups, box);
+	keys := typify_group_keys(wanted);
+	wanted_source := typify_lod25_source(lod25, id_column, geom_column, group_by, links, wanted);
 	IF lod200 IS NOT NULL THEN
 		levels := typify_calibrate_levels(source, lod200_source, s_u, options, grouped, wanted, false);
 	ELSE
-		levels := typify_census(source, options);
+		levels := typify_census(CASE allocation WHEN 'total' THEN source ELSE wanted_source END, options);
 	END IF;
 	IF NOT grouped THEN
 		levels := levels[1:1];
@@ -168,7 +171,7 @@ BEGIN
 		array_agg(allotted[ordinality] ORDER BY ordinality)
 	INTO given, allotted
 	FROM unnest(levels) WITH ORDINALITY AS l
-	WHERE NOT l.overall AND l.n25 > 0 AND (wanted IS NULL OR typify_group_key(l.grp) = ANY (wanted));
+	WHERE NOT l.overall AND l.n25 > 0 AND (wanted IS NULL OR typify_group_key(l.grp) = ANY (keys));
 	IF given IS NULL THEN
 		RETURN;
 	END IF;
@@ -176,7 +179,7 @@ BEGIN
 		SELECT p.id, CASE WHEN hidden THEN NULL ELSE p.geom END, p.member_count, p.members,
 			CASE WHEN hidden THEN 0 ELSE p.area END, CASE WHEN hidden THEN 0 ELSE p.width END,
 			CASE WHEN hidden THEN 0 ELSE p.length END, p.orientation, g.grp
-		FROM typify_each_group(source, scale, s_u, given, grouped) AS g
+		FROM typify_each_group(wanted_source, scale, s_u, given, grouped) AS g
 		LEFT JOIN (SELECT typify_group_key(n.grp) AS key, true AS none
 				   FROM unnest(given) WITH ORDINALITY AS n WHERE allotted[ordinality] = 0) AS n
 			ON n.key = typify_group_key(g.grp)
