@@ -55,7 +55,7 @@ CREATE FUNCTION typify_layer_definition(lod25 regclass, lod200 regclass, scale d
 	group_by name, options typify_options, allocation text, id_column name, geom_column name,
 	lod200_geom_column name, lod200_group_by name, links regclass)
 RETURNS json
-LANGUAGE plpgsql STABLE
+LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
 SET extra_float_digits = 1 AS
 $$
@@ -85,7 +85,7 @@ COMMENT ON FUNCTION typify_layer_definition(regclass, regclass, double precision
 'How a layer is derived, as its comment says it: a JSON object of the version of typify, the arguments of typify_derive by their names (relations with schema) and, among options, those that are set. Errors: 22004 for a NULL where a value is needed; those of typify_table_name.';
 
 CREATE FUNCTION typify_layer_comment(relation oid) RETURNS jsonb
-LANGUAGE plpgsql STABLE
+LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT AS
 $$
 DECLARE
@@ -102,7 +102,7 @@ COMMENT ON FUNCTION typify_layer_comment(oid) IS
 'The comment of a relation where it is a JSON object; NULL otherwise.';
 
 CREATE FUNCTION typify_layer(layer regclass) RETURNS jsonb
-LANGUAGE plpgsql STABLE
+LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT AS
 $$
 DECLARE
@@ -121,7 +121,7 @@ COMMENT ON FUNCTION typify_layer(regclass) IS
 'How a layer is derived, as its comment says (see typify_layer_definition); "finished": false marks a table that typify_build_scale has not completed. Errors: 22004 for NULL; 42809 for what is no layer.';
 
 CREATE FUNCTION typify_layer_call(definition jsonb, function text, groups text DEFAULT '') RETURNS text
-LANGUAGE plpgsql STABLE
+LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT AS
 $$
 DECLARE
@@ -153,7 +153,7 @@ COMMENT ON FUNCTION typify_layer_call(jsonb, text, text) IS
 'SQL that calls typify_derive or typify_calibrate as the definition of a layer says; groups: a further argument of typify_derive. Options are written as a call of typify_options with those that are set, so that the definition of a materialized view outlives new options. Error 42P01 when a table from which the layer is derived is there no more.';
 
 CREATE FUNCTION typify_layer_geometry(relation regclass, column_name name) RETURNS text
-LANGUAGE plpgsql STABLE
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT AS
 $$
 DECLARE
@@ -226,7 +226,7 @@ COMMENT ON FUNCTION typify_layer_is_calibrated(jsonb) IS
 'Whether a layer takes exponent or psi from LOD200: there is one, and options do not give both.';
 
 CREATE FUNCTION typify_layer_source(definition jsonb) RETURNS text
-LANGUAGE sql STABLE
+LANGUAGE sql STABLE PARALLEL SAFE
 BEGIN ATOMIC
 	SELECT typify_lod25_source((definition->>'lod25')::regclass, (definition->>'id_column')::name,
 		(definition->>'geom_column')::name, (definition->>'group_by')::name, (definition->>'links')::regclass);
@@ -236,7 +236,7 @@ COMMENT ON FUNCTION typify_layer_source(jsonb) IS
 'The sub-select of the buildings from which a layer is derived (see typify_lod25_source).';
 
 CREATE FUNCTION typify_layer_shares(definition jsonb) RETURNS jsonb
-LANGUAGE plpgsql STABLE
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
 SET jit = off AS
 $$
@@ -267,7 +267,7 @@ COMMENT ON FUNCTION typify_layer_share_rows(jsonb) IS
 'What typify_layer_shares found, as rows; key: as of typify_group_key.';
 
 CREATE FUNCTION typify_layer_shares_index(layer regclass) RETURNS regclass
-LANGUAGE sql STABLE
+LANGUAGE sql STABLE PARALLEL SAFE
 BEGIN ATOMIC
 	SELECT min(indexrelid)::regclass FROM pg_index JOIN pg_attribute ON attrelid = indrelid AND attnum = indkey[0]
 	WHERE indrelid = layer AND indnatts = 1 AND attname = 'grp';
@@ -472,7 +472,7 @@ COMMENT ON FUNCTION typify_refresh_groups(regclass, text[]) IS
 'Derives groups of a table layer anew and returns the number of rows written. groups: those in which buildings were added, changed, moved or removed, as text (a NULL element is the NULL group); a group that is no longer there loses its rows. Afterwards the layer has the rows that deriving it anew would give: groups whose calibration moved with the change are refreshed as well, that is, all that use the overall values, and those whose LOD200 objects changed. Where options give both exponent and psi, or without LOD200, nothing is calibrated and only the groups named are touched. Errors: 42809 for what is no layer or is a materialized view; 0A000 for a layer whose allocation is total; 55000 for one that typify_build_scale has not finished; 23505 when a building that came from a group that is not named represents a placeholder there; 42P01 when a table from which it is derived is there no more; 22004 for NULL.';
 
 CREATE FUNCTION typify_layer_calibration(definition jsonb) RETURNS jsonb
-LANGUAGE plpgsql STABLE
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
 SET extra_float_digits = 1 AS
 $$
@@ -531,7 +531,7 @@ COMMENT ON FUNCTION typify_layer_begin(name, text, json, integer) IS
 'The table that typify_build_scale fills: made now with "finished": false in its comment, or the one that an earlier call with the same arguments left unfinished. Error 42P07 for any other relation of that name.';
 
 CREATE FUNCTION typify_layer_groups(layer regclass) RETURNS text[]
-LANGUAGE plpgsql STABLE
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT AS
 $$
 DECLARE
@@ -550,7 +550,7 @@ COMMENT ON FUNCTION typify_layer_groups(regclass) IS
 CREATE FUNCTION typify_layer_batch(layer regclass, groups text[]) RETURNS TABLE (id bigint, geom geometry,
 	member_count integer, members bigint[], area double precision, width double precision, length double precision,
 	orientation double precision, grp text)
-LANGUAGE plpgsql STABLE
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT AS
 $$
 DECLARE
