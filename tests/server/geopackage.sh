@@ -4,14 +4,9 @@
 . "$(dirname "$0")/common.sh"
 
 command -v ogr2ogr >/dev/null || { echo "skipped: no ogr2ogr; the Debian package is gdal-bin"; exit 77; }
-fresh_database typify_geopackage tests/data/settlement.sql
-sql -o /dev/null <<'SQL'
-CREATE MATERIALIZED VIEW layer75 AS
-SELECT id::integer, member_count, members, area, geom::geometry(Polygon, 25832) AS geom
-FROM (SELECT typify_placeholders(geom, id, 75000, 0.5) AS list FROM settlement_buildings) AS t, unnest(list);
-CREATE UNIQUE INDEX ON layer75 (id);
-CREATE INDEX ON layer75 USING gist (geom);
-SQL
+fresh_database typify_geopackage tests/data/settlement.sql tests/data/settlement_lod200.sql
+sql -o /dev/null -c "SELECT typify_create_scale('layer75', 'settlement_buildings', 'settlement_lod200', 75000, 0.5,
+	group_by => 'block')"
 # GeoPackage knows no arrays; and what comes from a query has no type unless it is named
 ogr2ogr -f GPKG "$OWN_FOLDER/layer.gpkg" "PG:dbname=$PGDATABASE" -nln layer75 -nlt POLYGON -sql \
 	"SELECT id, member_count, array_to_string(members, ' ') AS members, area, geom FROM layer75"
