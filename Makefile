@@ -53,7 +53,7 @@ clean: clean-tests
 clean-tests:
 	@for dir in tests/unit tests/fuzz; do if [ -f $$dir/Makefile ]; then $(MAKE) -s -C $$dir clean; fi; done
 
-.PHONY: demo test fuzz help
+.PHONY: demo test fuzz doc help
 # make hands on what it is given: DATA, ROADS, OSM, ATTRIBUTION, OUT, QGIS, PGVERSION, TYPIFY_DATA
 export DATA
 demo: override DATA := $(DEMO_DATA)
@@ -63,6 +63,8 @@ test:
 	@tools/test.sh
 fuzz:
 	@SECONDS_EACH='$(or $(SECONDS),60)' tools/fuzz.sh
+doc:
+	@tools/doc.sh
 
 help:
 	@echo "make                  build for the server of PG_CONFIG (default: pg_config)"
@@ -76,5 +78,6 @@ help:
 	@echo "make test             every test, in a throw-away server"
 	@echo "  QGIS=1              ... with QGIS, which takes 600 MB more"
 	@echo "make fuzz             both fuzz targets, SECONDS=60 each"
+	@echo "make doc              the pictures of README and doc/, and what the tutorial's commands print"
 	@echo "make clean            remove what was built"
-	@echo "demo, test and fuzz install missing Debian packages (as root or with sudo) and take PGVERSION=15."
+	@echo "demo, test, fuzz and doc install missing Debian packages (as root or with sudo) and take PGVERSION=15."
