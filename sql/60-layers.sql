@@ -113,7 +113,8 @@ BEGIN
 		RETURN definition;
 	END IF;
 	RAISE EXCEPTION '% is not a layer of typify', name USING ERRCODE = 'wrong_object_type',
-		HINT = 'Layers are made by typify_create_scale or typify_build_scale; the JSON in their comment says how they are derived and must stay.';
+		HINT = 'Layers are made by typify_create_scale or typify_build_scale; the JSON in their comment '
+			'says how they are derived and must stay.';
 END
 $$;
 
@@ -179,7 +180,8 @@ SET search_path FROM CURRENT AS
 $$
 BEGIN
 	EXECUTE format('CREATE TABLE %s (id bigint PRIMARY KEY, geom %s, member_count integer NOT NULL, '
-		'members bigint[] NOT NULL, area float8, width float8, length float8, orientation float8, grp text)', layer, geom_type);
+		'members bigint[] NOT NULL, area float8, width float8, length float8, orientation float8, grp text)',
+		layer, geom_type);
 	EXECUTE format('CREATE INDEX ON %s (grp)', layer);
 	EXECUTE format('COMMENT ON TABLE %s IS %L', layer, definition);
 	RETURN layer::regclass;
@@ -225,15 +227,15 @@ END;
 COMMENT ON FUNCTION typify_layer_is_calibrated(jsonb) IS
 'Whether a layer takes exponent or psi from LOD200: there is one, and options do not give both.';
 
-CREATE FUNCTION typify_layer_source(definition jsonb) RETURNS text
+CREATE FUNCTION typify_layer_source(definition jsonb, groups text[] DEFAULT NULL) RETURNS text
 LANGUAGE sql STABLE PARALLEL SAFE
 BEGIN ATOMIC
 	SELECT typify_lod25_source((definition->>'lod25')::regclass, (definition->>'id_column')::name,
-		(definition->>'geom_column')::name, (definition->>'group_by')::name, (definition->>'links')::regclass);
+		(definition->>'geom_column')::name, (definition->>'group_by')::name, (definition->>'links')::regclass, groups);
 END;
 
-COMMENT ON FUNCTION typify_layer_source(jsonb) IS
-'The sub-select of the buildings from which a layer is derived (see typify_lod25_source).';
+COMMENT ON FUNCTION typify_layer_source(jsonb, text[]) IS
+'The sub-select of the buildings from which a layer is derived, at least of these groups (see typify_lod25_source).';
 
 CREATE FUNCTION typify_layer_shares(definition jsonb) RETURNS jsonb
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
@@ -245,8 +247,8 @@ DECLARE
 BEGIN
 	EXECUTE 'SELECT jsonb_agg(jsonb_build_array(grp, number, area) ORDER BY grp COLLATE "C") FROM ('
 		'SELECT grp, count(*) AS number, sum(ST_Area(geom)::numeric) AS area FROM '
-		|| typify_lod200_groups(typify_layer_source(definition), (definition->>'lod200')::regclass, (definition->>'id_column')::name,
-			(definition->>'lod200_geom_column')::name, (definition->>'group_by')::name,
+		|| typify_lod200_groups(typify_layer_source(definition), (definition->>'lod200')::regclass,
+			(definition->>'id_column')::name, (definition->>'lod200_geom_column')::name, (definition->>'group_by')::name,
 			(definition->>'lod200_group_by')::name, (definition->>'links')::regclass)
 		|| ' AS lod200 GROUP BY grp) AS share' INTO shares;
 	RETURN coalesce(shares, '[]');
@@ -414,7 +416,8 @@ BEGIN
 		PERFORM typify_refuse_null('concurrently');
 	END IF;
 	IF (SELECT relkind = 'm' FROM pg_class WHERE oid = name) THEN
-		EXECUTE format('REFRESH MATERIALIZED VIEW %s %s', CASE WHEN typify_refresh_scale.concurrently THEN 'CONCURRENTLY' ELSE '' END, layer);
+		EXECUTE format('REFRESH MATERIALIZED VIEW %s %s',
+			CASE WHEN typify_refresh_scale.concurrently THEN 'CONCURRENTLY' ELSE '' END, layer);
 	ELSIF typify_refresh_scale.concurrently THEN
 		RAISE EXCEPTION '% is a table, which is not refreshed concurrently', layer
 			USING ERRCODE = 'wrong_object_type',
@@ -463,6 +466,9 @@ BEGIN
 				OR coalesce(new.number, 0) NOT BETWEEN 1 AND n25 OR new.area = 0', layer) INTO moved USING before, now;
 		groups := CASE WHEN before IS NOT NULL THEN groups || moved END;
 		PERFORM typify_layer_keep_shares(name, jsonb_build_object('lod200', now));
+	ELSE
+		-- nothing is taken from LOD200, so it need not be read
+		definition := definition || '{"lod200": null, "lod200_group_by": null}';
 	END IF;
 	RETURN typify_layer_replace(name, groups, typify_layer_call(definition, 'typify_derive', ', groups => $1'));
 END
@@ -569,7 +575,7 @@ BEGIN
 	) AS listed ON key = typify_group_key(one.grp)
 	CROSS JOIN LATERAL (SELECT coalesce(own, calibration->'overall') AS fit) AS fits;
 	RETURN QUERY
-	SELECT p.*, g.grp FROM typify_each_group(typify_layer_source(definition), (definition->>'scale')::float8,
+	SELECT p.*, g.grp FROM typify_each_group(typify_layer_source(definition, groups), (definition->>'scale')::float8,
 		(definition->>'s_u')::float8, given, true) AS g, unnest(g.list) AS p;
 END
 $$;
@@ -613,8 +619,8 @@ $$;
 
 COMMENT ON FUNCTION typify_layer_complete(regclass) IS 'The end of typify_build_scale: the layer is one like any other.';
 
--- A procedure that commits cannot set a search_path: everything here names its schema. The calls before the first
--- COMMIT leave nothing behind when they fail.
+-- A procedure that commits cannot set a search_path, so it asks where typify is. What comes before the first COMMIT
+-- leaves nothing behind when it fails.
 CREATE PROCEDURE typify_build_scale(
 	name text,
 	lod25 regclass,
@@ -633,20 +639,26 @@ CREATE PROCEDURE typify_build_scale(
 LANGUAGE plpgsql AS
 $$
 DECLARE
-	layer pg_catalog.regclass := @extschema@.typify_layer_begin(pg_catalog.current_schema(), name,
-		@extschema@.typify_layer_definition(lod25, lod200, scale, s_u, group_by, options, allocation, id_column,
-			geom_column, lod200_geom_column, lod200_group_by, links), batch);
-	groups pg_catalog.text[] := @extschema@.typify_layer_groups(layer);
-	number pg_catalog.int4 := pg_catalog.cardinality(groups);
-	done pg_catalog.int4 := 0;
+	typify text := extnamespace::regnamespace FROM pg_catalog.pg_extension WHERE extname = 'typify';
+	layer regclass;
+	groups text[];
+	number integer;
+	done integer := 0;
 BEGIN
+	EXECUTE format('SELECT %1$s.typify_layer_begin(current_schema(), $1, %1$s.typify_layer_definition($2, $3, $4, $5, $6, '
+		'$7, $8, $9, $10, $11, $12, $13), $14)', typify)
+	INTO layer USING name, lod25, lod200, scale, s_u, group_by, options, allocation, id_column, geom_column,
+		lod200_geom_column, lod200_group_by, links, batch;
+	EXECUTE format('SELECT %s.typify_layer_groups($1)', typify) INTO groups USING layer;
+	number := cardinality(groups);
 	WHILE done < number LOOP
-		PERFORM @extschema@.typify_layer_build(layer, groups[done + 1 : done + batch]);
+		EXECUTE format('SELECT %s.typify_layer_build($1, $2)', typify)
+			USING layer, groups[done + 1 : least(done + batch::bigint, number)];
 		COMMIT;
-		done := least(done + batch, number);
-		RAISE NOTICE '% of % groups (% %%)', done, number, 100 * done / number;
+		done := least(done + batch::bigint, number);
+		RAISE NOTICE '% of % groups (% %%)', done, number, 100::bigint * done / number;
 	END LOOP;
-	PERFORM @extschema@.typify_layer_complete(layer);
+	EXECUTE format('SELECT %s.typify_layer_complete($1)', typify) USING layer;
 	COMMIT;
 END
 $$;

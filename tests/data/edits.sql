@@ -47,8 +47,9 @@ $$
 DECLARE
 	number bigint;
 BEGIN
-	EXECUTE format('SELECT count(*) FROM ((TABLE %1$s EXCEPT ALL %2$s) UNION ALL (%2$s EXCEPT ALL TABLE %1$s)) AS d',
-		layer, query) INTO number;
+	EXECUTE format('WITH query AS MATERIALIZED (%2$s) SELECT count(*) '
+		'FROM ((TABLE %1$s EXCEPT ALL TABLE query) UNION ALL (TABLE query EXCEPT ALL TABLE %1$s)) AS d', layer, query)
+	INTO number;
 	RETURN number;
 END
 $$;
