@@ -151,13 +151,95 @@ END $$;
 COMMENT ON FUNCTION typify_lod200_source(regclass, name, name) IS
 'The sub-select of the objects of LOD200, without those whose geometry is NULL or EMPTY: geom, and grp text, which is the column group_column, or NULL without one. Errors: as of typify_table_name and typify_column_name.';
 
--- A building is where its centroid is, and so is an object of LOD200: one that covers buildings of several
--- groups belongs to the group that its middle is nearest to.
-CREATE FUNCTION typify_lod200_groups(lod25_source text, lod200 regclass, id_column name, geom_column name, group_by name,
-	lod200_group_by name, links regclass) RETURNS text
+-- A building is where its centroid is, and so is an object of LOD200: one that covers buildings of several groups
+-- belongs to the group that its middle is nearest to. Equally near is what differs by rounding only, 1e-12.
+
+-- With an index: a query for the least distance and one for the ties, since PostgreSQL 15 does not find neighbours by
+-- index where they are sorted by a second column.
+CREATE FUNCTION typify_nearest_by_index(lod25_source text, lod200_source text) RETURNS text
+LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
+RETURN format('(SELECT c.geom, n.grp FROM (SELECT geom, ST_Centroid(geom) AS centre FROM %1$s AS c OFFSET 0) AS c
+	CROSS JOIN LATERAL (SELECT b.geom <-> c.centre AS distance FROM %2$s AS b ORDER BY 1 LIMIT 1) AS d
+	CROSS JOIN LATERAL (SELECT b.grp FROM %2$s AS b
+		WHERE ST_DWithin(b.geom, c.centre, d.distance * (1 + 1e-12)) ORDER BY b.id LIMIT 1) AS n)',
+	lod200_source, lod25_source);
+COMMENT ON FUNCTION typify_nearest_by_index(text, text) IS
+'The sub-select of typify_nearest_groups as nearest-neighbour queries, for buildings with a GiST index.';
+
+-- Without: buildings lie in the cells of a grid that their boxes meet. What is found in the nine cells around an object
+-- is the nearest if it is no farther than a cell's side; the others look again in cells four times as wide.
+CREATE FUNCTION typify_nearest_groups(lod25_source text, lod200_source text)
+RETURNS TABLE (geom geometry, grp text)
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+SET jit = off
+-- of arrays and series the planner expects few rows
+SET enable_nestloop = off
+AS $$
+#variable_conflict use_column
+DECLARE
+	objects geometry[];
+	centres geometry[];
+	places bigint[];
+	groups text[];
+	found_places bigint[] := '{}';
+	found_groups text[] := '{}';
+	finite bigint;
+	side double precision;
+	x double precision;
+	y double precision;
+BEGIN
+	EXECUTE format('SELECT array_agg(geom), array_agg(ST_Centroid(geom)) FROM %s AS c', lod200_source)
+	INTO objects, centres;
+	EXECUTE format(
+		'SELECT greatest(sqrt(width * height / n), width / 1e4, height / 1e4, 1e-6), x, y
+		FROM (SELECT count(*) AS n, min(ST_XMin(geom)) AS x, min(ST_YMin(geom)) AS y,
+				max(ST_XMax(geom)) - min(ST_XMin(geom)) AS width, max(ST_YMax(geom)) - min(ST_YMin(geom)) AS height
+			  FROM %s AS b) AS extent', lod25_source)
+	INTO side, x, y;
+	-- where a coordinate is no finite number, typify_placeholders says so later
+	finite := (SELECT count(*) FROM unnest(centres) AS c WHERE abs(ST_X(c)) + abs(ST_Y(c)) < 'Infinity');
+	WHILE side < 'Infinity' AND cardinality(found_places) < finite LOOP
+		EXECUTE format(
+			'WITH spot AS MATERIALIZED (
+				SELECT place, centre, floor((ST_X(centre) - $3) / $5) + di AS i,
+					floor((ST_Y(centre) - $4) / $5) + dj AS j
+				FROM unnest($1) WITH ORDINALITY AS c(centre, place), generate_series(-1, 1) AS di,
+					generate_series(-1, 1) AS dj
+				WHERE place <> ALL ($2)
+			), cell AS MATERIALIZED (
+				SELECT id, grp, geom, i::float8, j::float8 FROM %s AS b,
+					generate_series(floor((ST_XMin(geom) - $3) / $5)::integer, floor((ST_XMax(geom) - $3) / $5)::integer)
+						AS i,
+					generate_series(floor((ST_YMin(geom) - $4) / $5)::integer, floor((ST_YMax(geom) - $4) / $5)::integer)
+						AS j
+			), near AS (
+				SELECT place, id, grp, distance, min(distance) OVER (PARTITION BY place) AS least
+				FROM (SELECT place, id, grp, geom <-> centre AS distance FROM spot JOIN cell USING (i, j)) AS pair
+			), nearest AS (
+				SELECT DISTINCT ON (place) place, grp FROM near
+				WHERE distance <= least * (1 + 1e-12) AND least <= $5 ORDER BY place, id
+			)
+			SELECT array_agg(place), array_agg(grp) FROM nearest', lod25_source)
+		INTO places, groups USING centres, found_places, x, y, side;
+		found_places := found_places || places;
+		found_groups := found_groups || groups;
+		side := side * 4;
+	END LOOP;
+	RETURN QUERY
+		SELECT o.geom, f.grp FROM unnest(objects) WITH ORDINALITY AS o(geom, place)
+		LEFT JOIN unnest(found_places, found_groups) AS f(place, grp) USING (place);
+END $$;
+COMMENT ON FUNCTION typify_nearest_groups(text, text) IS
+'The objects of the second sub-select with the group of the building of the first that is nearest to their centroid, of equally near ones that with the smallest id; needs no index. grp NULL: that of the building, or there is no building.';
+
+CREATE FUNCTION typify_lod200_groups(lod25_source text, lod25 regclass, lod200 regclass, id_column name,
+	geom_column name, lod200_geom_column name, group_by name, lod200_group_by name, links regclass) RETURNS text
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
 AS $$
+DECLARE
+	lod200_source text;
 BEGIN
 	PERFORM typify_table_name(lod200, 'lod200');
 	IF lod200_group_by IS NOT NULL AND group_by IS NULL AND links IS NULL THEN
@@ -171,17 +253,20 @@ BEGIN
 	ELSIF typify_has_column(lod200, group_by) THEN
 		lod200_group_by := group_by;
 	ELSIF group_by IS NOT NULL THEN
-		-- a query for the least distance and one for the ties, since an index serves both; 1e-12: rounding
-		RETURN format('(SELECT c.geom, n.grp FROM (SELECT geom, ST_Centroid(geom) AS centre FROM %1$s AS c OFFSET 0) AS c
-			CROSS JOIN LATERAL (SELECT b.geom <-> c.centre AS distance FROM %2$s AS b ORDER BY 1 LIMIT 1) AS d
-			CROSS JOIN LATERAL (SELECT b.grp FROM %2$s AS b
-				WHERE ST_DWithin(b.geom, c.centre, d.distance * (1 + 1e-12)) ORDER BY b.id LIMIT 1) AS n)',
-			typify_lod200_source(lod200, geom_column, NULL), lod25_source);
+		lod200_source := typify_lod200_source(lod200, lod200_geom_column, NULL);
+		IF EXISTS (
+			SELECT FROM pg_index JOIN pg_class ON pg_class.oid = indexrelid JOIN pg_am ON pg_am.oid = relam
+			JOIN pg_attribute ON attrelid = indrelid AND attnum = indkey[0]
+			WHERE indrelid = lod25 AND attname = geom_column AND amname = 'gist' AND indisvalid AND indpred IS NULL)
+		THEN
+			RETURN typify_nearest_by_index(lod25_source, lod200_source);
+		END IF;
+		RETURN format('typify_nearest_groups(%L, %L)', lod25_source, lod200_source);
 	END IF;
-	RETURN typify_lod200_source(lod200, geom_column, lod200_group_by);
+	RETURN typify_lod200_source(lod200, lod200_geom_column, lod200_group_by);
 END $$;
-COMMENT ON FUNCTION typify_lod200_groups(text, regclass, name, name, name, name, regclass) IS
-'The sub-select of the objects of LOD200 with their groups: geom, grp text. With links, the group of an object is its key, the column lod200_group_by or else id_column. Else it is the column lod200_group_by, or the column that group_by names if LOD200 has it, or the group of the building nearest to the object''s centroid, of equally near ones the one with the smallest id (a GiST index on the buildings makes that fast). Without group_by it is NULL. Errors: as of typify_table_name and typify_column_name; 22023 for lod200_group_by without group_by.';
+COMMENT ON FUNCTION typify_lod200_groups(text, regclass, regclass, name, name, name, name, name, regclass) IS
+'The sub-select of the objects of LOD200 with their groups: geom, grp text. With links, the group of an object is its key, the column lod200_group_by or else id_column. Else it is the column lod200_group_by, or the column that group_by names if LOD200 has it, or the group of the building nearest to the object''s centroid, of equally near ones the one with the smallest id. Without group_by it is NULL. Errors: as of typify_table_name and typify_column_name; 22023 for lod200_group_by without group_by.';
 
 CREATE FUNCTION typify_source_srid(source text, relation regclass, geom_column name, argument text) RETURNS integer
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED

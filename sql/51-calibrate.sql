@@ -67,7 +67,8 @@ LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
 BEGIN ATOMIC
 	SELECT coalesce(array_agg(DISTINCT typify_group_key(grp)), '{}') FROM unnest(groups) AS grp;
 END;
-COMMENT ON FUNCTION typify_group_keys(text[]) IS 'The different keys (typify_group_key) of groups; NULL for NULL, which means all';
+COMMENT ON FUNCTION typify_group_keys(text[]) IS
+'The different keys (typify_group_key) of groups; NULL for NULL, which means all';
 
 CREATE FUNCTION typify_each_group(source text, scale double precision, s_u double precision,
 	groups typify_calibration[], grouped boolean)
@@ -266,6 +267,21 @@ END $$;
 COMMENT ON FUNCTION typify_calibrate_levels(text, text, double precision, typify_options, boolean, text[], boolean) IS
 'The calibrations of two sub-selects, the whole first; NULL when there is no building. grouped: false for the whole alone. wanted: only these groups need psi; NULL for all. report: also find mean_placeholder_area where psi has no use for it. Errors: 22023 for a LOD200 without objects or with more of them than buildings; others as of typify_placeholders.';
 
+CREATE FUNCTION typify_check_links(levels typify_calibration[], links regclass) RETURNS void
+LANGUAGE plpgsql IMMUTABLE PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	twice text := (SELECT min(l.grp) FROM unnest(levels) AS l WHERE NOT l.overall AND l.n200 > 1);
+BEGIN
+	IF links IS NOT NULL AND twice IS NOT NULL THEN
+		RAISE EXCEPTION 'key % of links occurs more than once in lod200', twice
+			USING ERRCODE = '22023', HINT = 'Name the key of lod200 with lod200_group_by => ''...''.';
+	END IF;
+END $$;
+COMMENT ON FUNCTION typify_check_links(typify_calibration[], regclass) IS
+'Refuses (22023) a LOD200 in which two objects have one key, when its objects are the groups. links NULL: they are not.';
+
 CREATE FUNCTION typify_calibrate(
 	lod25 regclass,
 	lod200 regclass,
@@ -289,14 +305,17 @@ SET extra_float_digits = 1
 AS $$
 DECLARE
 	lod25_source text := typify_lod25_source(lod25, id_column, geom_column, group_by, links);
-	lod200_source text := typify_lod200_groups(lod25_source, lod200, id_column, lod200_geom_column, group_by,
-		lod200_group_by, links);
+	lod200_source text := typify_lod200_groups(lod25_source, lod25, lod200, id_column, geom_column,
+		lod200_geom_column, group_by, lod200_group_by, links);
+	levels typify_calibration[];
 BEGIN
 	PERFORM typify_check_parameters(coalesce(options.lod200_scale, 200000), s_u, options);
 	PERFORM typify_check_srids(lod25_source, lod25, geom_column, lod200, lod200_geom_column, NULL);
 	PERFORM typify_check_ids(lod25_source, lod25, id_column, links);
-	RETURN QUERY SELECT * FROM unnest(typify_calibrate_levels(lod25_source, lod200_source, s_u, options,
-		group_by IS NOT NULL OR links IS NOT NULL, NULL, true));
+	levels := typify_calibrate_levels(lod25_source, lod200_source, s_u, options,
+		group_by IS NOT NULL OR links IS NOT NULL, NULL, true);
+	PERFORM typify_check_links(levels, links);
+	RETURN QUERY SELECT * FROM unnest(levels);
 END $$;
 COMMENT ON FUNCTION typify_calibrate(regclass, regclass, double precision, name, typify_options, name, name, name, name,
 	regclass) IS
@@ -304,4 +323,4 @@ COMMENT ON FUNCTION typify_calibrate(regclass, regclass, double precision, name,
 Objects of LOD200 belong to the group in their column lod200_group_by (default: the column that group_by names, if LOD200 has it), without one to that of the building nearest to their centroid (of the smallest id among equally near ones); with links, lod200_group_by names their key (default: as id_column).
 What options set is kept: exponent, psi, count; with count, count_rule => ''black_white'' or min_distance alone no exponent is calibrated, since these say how many. With black_white the counts follow from the psi that is calibrated. With area_statistic => ''sum'' no psi is calibrated, since it has no effect. No psi is calibrated from a LOD200 without areas (points, lines).
 The tables are read, never written; id_column (smallint, integer, bigint; different for each building) and the two geometry columns may be named otherwise. NULL and EMPTY geometries do not count. No row when lod25 has no building.
-Errors: 42P01, 42809, 42703, 42804 for a table or column that is not there or of another kind; 22004 for NULL arguments; 22023 for two SRIDs, a geographic one, ids that occur twice, a lod200 without objects or with more of them than lod25, links together with group_by, lod200_group_by without group_by; others as of typify_placeholders.';
+Errors: 42P01, 42809, 42703, 42804 for a table or column that is not there or of another kind; 22004 for NULL arguments; 22023 for two SRIDs, a geographic one, ids that occur twice (of lod200 with links only), a lod200 without objects or with more of them than lod25, links together with group_by, lod200_group_by without group_by; others as of typify_placeholders.';

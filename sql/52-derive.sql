@@ -144,8 +144,8 @@ BEGIN
 	END IF;
 	PERFORM typify_check_parameters(scale, s_u, options);
 	IF lod200 IS NOT NULL THEN
-		lod200_source := typify_lod200_groups(source, lod200, id_column, lod200_geom_column, group_by,
-			lod200_group_by, links);
+		lod200_source := typify_lod200_groups(source, lod25, lod200, id_column, geom_column, lod200_geom_column,
+			group_by, lod200_group_by, links);
 	END IF;
 	PERFORM typify_check_srids(source, lod25, geom_column, lod200, lod200_geom_column, box);
 	PERFORM typify_check_ids(source, lod25, id_column, links);
@@ -155,6 +155,7 @@ BEGIN
 	wanted_source := typify_lod25_source(lod25, id_column, geom_column, group_by, links, wanted);
 	IF lod200 IS NOT NULL THEN
 		levels := typify_calibrate_levels(source, lod200_source, s_u, options, grouped, wanted, false);
+		PERFORM typify_check_links(levels, links);
 	ELSE
 		levels := typify_census(CASE allocation WHEN 'total' THEN source ELSE wanted_source END, options);
 	END IF;

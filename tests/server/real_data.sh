@@ -71,4 +71,40 @@ check "a parallel plan gives the same bytes" \
 	SELECT md5(ST_AsEWKB(typify(geom, 75000, 0.5))) = '$serial' FROM buildings"
 check "another order of rows gives the same bytes" \
 	"SELECT md5(ST_AsEWKB(typify(geom, 75000, 0.5 ORDER BY id * 7919 % 17717))) = '$serial' FROM buildings"
+
+# a coarse layer that typify did not make: the hulls of dense cores, and what is large and stands alone
+psql -qX -v ON_ERROR_STOP=1 <<'SQL'
+CREATE TABLE lod25 AS SELECT id, geom, ST_ClusterDBSCAN(geom, 50, 5) OVER () AS place FROM buildings;
+CREATE TABLE lod200 AS
+SELECT min(id) AS id, ST_ConvexHull(ST_Buffer(ST_Collect(geom), 4)) AS geom
+FROM (SELECT id, geom, ST_ClusterDBSCAN(geom, 12, 3) OVER () AS core FROM buildings) b
+GROUP BY coalesce(core, -id) HAVING count(*) >= 4 OR count(*) = 1 AND sum(ST_Area(geom)) > 500;
+CREATE TABLE calibration AS SELECT * FROM typify_calibrate('lod25', 'lod200', 0.5, 'place');
+SQL
+psql -qX -v ON_ERROR_STOP=1 -P pager=off <<'SQL'
+SELECT scale, asked, count(*) AS got, round(avg(area)) AS mean_area, round(max(wanted)) AS mean_area_stored
+FROM (SELECT c.*, scale, typify_count(n25, scale, options) AS asked,
+		CASE scale WHEN 25000 THEN mean_area25 WHEN 200000 THEN mean_area200 END AS wanted
+	  FROM typify_calibrate('lod25', 'lod200', 0.5) c, unnest(ARRAY[25e3, 50e3, 75e3, 100e3, 150e3, 200e3]) AS scale) c,
+	typify_derive('lod25', 'lod200', scale, 0.5) GROUP BY scale, asked ORDER BY scale;
+SQL
+check "derived from two levels: LOD200's count and mean area at 1:200 000" \
+	"SELECT count(*) = (SELECT count(*) FROM lod200) AND abs(avg(area) / (SELECT avg(ST_Area(geom)) FROM lod200) - 1) < 1e-9
+	FROM typify_derive('lod25', 'lod200', 200000, 0.5)"
+check "... and LOD25's count at 1:25 000" \
+	"SELECT count(*) = 17717 FROM typify_derive('lod25', 'lod200', 25000, 0.5)"
+check "... in each place with objects of LOD200" \
+	"SELECT count(*) > 50 AND bool_and(n = n200 AND abs(area / mean_area200 - 1) < 1e-9) FROM calibration c JOIN
+		(SELECT grp, count(*) n, avg(area) area FROM typify_derive('lod25', 'lod200', 200000, 0.5, 'place') GROUP BY grp) d
+		ON d.grp IS NOT DISTINCT FROM c.grp WHERE calibrated AND NOT overall"
+check "... in all places together, with a total to divide" \
+	"SELECT bool_and(drawn = typify_count(n25, scale, options) AND members = 17717) FROM
+		(SELECT scale, count(geom) drawn, sum(member_count) members FROM unnest(ARRAY[50000, 75000, 200000, 500000]) scale,
+		typify_derive('lod25', 'lod200', scale, 0.5, 'place', allocation => 'total') GROUP BY scale) d, calibration
+	WHERE overall"
+psql -qX -v ON_ERROR_STOP=1 -c 'CREATE INDEX ON lod25 USING gist (geom)'
+check "the nearest building is the same with an index" \
+	"SELECT count(*) = (SELECT count(*) FROM calibration) AND bool_and(n.n200 = c.n200 AND n.psi IS NOT DISTINCT FROM c.psi)
+	FROM typify_calibrate('lod25', 'lod200', 0.5, 'place') n JOIN calibration c
+		ON (n.grp, n.overall) IS NOT DISTINCT FROM (c.grp, c.overall)"
 exit $failed

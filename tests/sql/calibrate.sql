@@ -125,6 +125,8 @@ CREATE TEMP TABLE wrong AS SELECT id::text AS word, id / 2 AS twice, geom::text 
 	CASE WHEN id > 5 THEN ST_SetSRID(geom, 25833) ELSE geom END AS both, * FROM lod25;
 CREATE TEMP TABLE empty200 AS SELECT 1 AS id, 'POINT EMPTY'::geometry AS geom;
 CREATE TEMP TABLE two_links AS SELECT * FROM link UNION ALL SELECT 1, 2;
+CREATE TEMP TABLE twice200 AS SELECT 1 + id / 2 AS id, geom FROM lod200;
+CREATE TEMP TABLE spoilt AS SELECT id, block, geom::geometry FROM lod25 UNION ALL SELECT 9001, '1', ST_MakeLine(ST_SetSRID(ST_MakePoint(0, 'NaN'), 25832), ST_SetSRID(ST_MakePoint(1, 1), 25832));
 CREATE TEMP SEQUENCE number;
 SELECT a AS arguments, regexp_replace(pg_temp.error_of(format('SELECT * FROM typify_calibrate(%s)', a)), 'pg_temp_\d+', 'pg_temp', 'g') AS error FROM unnest(ARRAY[
 	'''absent'', ''lod200''', '''lod25'', ''absent''', 'NULL, ''lod200''', '''lod25'', NULL', '''number'', ''lod200''',
@@ -134,6 +136,6 @@ SELECT a AS arguments, regexp_replace(pg_temp.error_of(format('SELECT * FROM typ
 	'''wrong'', ''lod200'', id_column => ''word''', '''wrong'', ''lod200'', geom_column => ''text''', '''lod25'', ''wrong'', lod200_geom_column => ''text''',
 	'''wrong'', ''lod200'', id_column => ''twice''', '''wrong'', ''lod200'', 0, ''block'', id_column => ''twice''',
 	'''wrong'', ''lod200'', geom_column => ''elsewhere''', '''wrong'', ''lod200'', geom_column => ''both''', '''lod25'', ''wrong'', lod200_geom_column => ''both''', '''wrong'', ''wrong'', geom_column => ''degrees'', lod200_geom_column => ''degrees''',
-	'''lod25'', ''empty200''', '''lod200'', ''lod25''', '''lod25'', ''lod200'', 0, ''block'', links => ''link''', '''lod25'', ''lod200'', links => ''lod200''', '''lod25'', ''lod200'', links => ''two_links''',
+	'''lod25'', ''empty200''', '''lod200'', ''lod25''', '''lod25'', ''lod200'', 0, ''block'', links => ''link''', '''lod25'', ''lod200'', links => ''lod200''', '''lod25'', ''lod200'', links => ''two_links''', '''lod25'', ''twice200'', links => ''link''', '''lod25'', ''lod200'', links => ''link'', lod200_group_by => ''block''', '''spoilt'', ''named'', 0, ''block''',
 	'''lod25'', ''lod200'', options => typify_options(lod200_scale => 20000)', '''lod25'', ''lod200'', options => typify_options(source_scale => 300000)', '''lod25'', ''lod200'', options => typify_options(min_side => 0.35)'
 ]) WITH ORDINALITY AS a (a, number) ORDER BY number;
