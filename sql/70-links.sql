@@ -117,7 +117,7 @@ END $$;
 COMMENT ON FUNCTION typify_check_layer(regclass, text, name, name) IS
 'Refuses a table that cannot be read as a layer, and returns its SRID (NULL without any geometry). role: how messages call it. id_column NULL: ids are not asked for. Errors: 42703 and 42804 for columns, 42809 for what is no table, 22004 for NULLs, 22023 for ids that occur twice, two SRIDs and a geographic SRID.';
 
-CREATE FUNCTION typify_check_srids(role_a text, srid_a integer, role_b text, srid_b integer)
+CREATE FUNCTION typify_check_same_srid(role_a text, srid_a integer, role_b text, srid_b integer)
 RETURNS void
 LANGUAGE plpgsql IMMUTABLE PARALLEL SAFE
 SET search_path FROM CURRENT
@@ -128,7 +128,7 @@ BEGIN
 			USING ERRCODE = '22023', HINT = 'Use ST_Transform, in a view, to bring them into one coordinate system.';
 	END IF;
 END $$;
-COMMENT ON FUNCTION typify_check_srids(text, integer, text, integer) IS
+COMMENT ON FUNCTION typify_check_same_srid(text, integer, text, integer) IS
 'Refuses two layers of different SRIDs (22023); a NULL SRID stands for an empty layer and passes';
 
 CREATE FUNCTION typify_match_options(options typify_options, n bigint) RETURNS typify_options
@@ -180,7 +180,12 @@ DECLARE
 	max_length double precision := max_distance / 1000 * m200
 		/ coalesce(typify_metres_per_unit(coalesce(srid, srid200)), 1);
 BEGIN
-	PERFORM typify_check_srids('lod25', srid, 'lod200', srid200);
+	PERFORM typify_check_same_srid('lod25', srid, 'lod200', srid200);
+	IF lod200_group_by IS NULL AND EXISTS (
+		SELECT FROM pg_catalog.pg_attribute WHERE attrelid = lod200 AND attname = group_by AND NOT attisdropped
+	) THEN
+		lod200_group_by := group_by;
+	END IF;
 	IF group_by IS NOT NULL THEN
 		PERFORM typify_check_column(lod25, 'lod25', group_by, NULL);
 	ELSIF lod200_group_by IS NOT NULL THEN
@@ -256,4 +261,4 @@ ORDER BY 1 NULLS LAST, 2$query$,
 END $$;
 COMMENT ON FUNCTION typify_match(regclass, regclass, double precision, name, double precision, typify_options, name,
 	name, name, name, name) IS
-'Links LOD25 buildings to LOD200 objects. Each group of LOD25 is typified to as many placeholders as it has LOD200 objects; placeholders and objects of the group are paired one to one, greedily by (distance, id of the placeholder, id of the object), at most max_distance apart (mm on the map at lod200_scale; the linear unit of the SRID is heeded). Distance: from the centre of the placeholder, the mean of its members'' centroids, to the centroid of the object, in units of the SRID. Rows, in this order: one per LOD25 building (lod200_id and distance NULL where its placeholder has no partner, or its group no LOD200 object), then one per LOD200 object without partner (lod25_id NULL). A group with more objects than buildings leaves the rest without partner. Rows without a usable geometry are passed over. group_by: a column of lod25, NULL being one group; objects take lod200_group_by, or without it the group of the LOD25 building whose centroid is nearest to theirs. The same set of rows gives the same links. As a view or table it serves typify_derive as links. Errors: 42703, 42804, 42809 for columns and tables; 22004 for NULLs; 22023 for ids that occur twice, SRIDs that are two or geographic, numbers out of range, and the options count and min_distance; 0A000 for geometries and options that are not supported.';
+'Links LOD25 buildings to LOD200 objects. Each group of LOD25 is typified to as many placeholders as it has LOD200 objects; placeholders and objects of the group are paired one to one, greedily by (distance, id of the placeholder, id of the object), at most max_distance apart (mm on the map at lod200_scale; the linear unit of the SRID is heeded). Distance: from the centre of the placeholder, the mean of its members'' centroids, to the centroid of the object, in units of the SRID. Rows, in this order: one per LOD25 building (lod200_id and distance NULL where its placeholder has no partner, or its group no LOD200 object), then one per LOD200 object without partner (lod25_id NULL). A group with more objects than buildings leaves the rest without partner. Rows without a usable geometry are passed over. group_by: a column of lod25, NULL being one group; objects take the group in their column lod200_group_by (default: the column that group_by names, if LOD200 has it), without one that of the LOD25 building whose centroid is nearest to theirs (of the smallest id among equally near ones). The same set of rows gives the same links. As a view or table it serves typify_derive as links. Errors: 42703, 42804, 42809 for columns and tables; 22004 for NULLs; 22023 for ids that occur twice, SRIDs that are two or geographic, numbers out of range, and the options count and min_distance; 0A000 for geometries and options that are not supported.';

@@ -77,8 +77,8 @@ DECLARE
 	srid_of_lines integer := typify_check_layer(lines, 'lines', NULL, lines_geom_column);
 	all_lines geometry;
 BEGIN
-	PERFORM typify_check_srids('buildings', srid, 'lines', srid_of_lines);
-	EXECUTE format('SELECT ST_Collect(%I) FROM %s', lines_geom_column, lines) INTO all_lines;
+	PERFORM typify_check_same_srid('buildings', srid, 'lines', srid_of_lines);
+	EXECUTE format('SELECT ST_Collect(ST_Force2D(%I)) FROM %s', lines_geom_column, lines) INTO all_lines;
 	RETURN QUERY EXECUTE format($query$
 WITH building AS MATERIALIZED (
 	SELECT id, centre[0] AS x, centre[1] AS y

@@ -57,8 +57,7 @@ static points_argument
 points_of(FunctionCallInfo fcinfo, int argument, const char *name)
 {
 	ArrayType *array = PG_GETARG_ARRAYTYPE_P(argument);
-	points_argument points = {(const ty_point *) ARR_DATA_PTR(array),
-							  ArrayGetNItems(ARR_NDIM(array), ARR_DIMS(array))};
+	points_argument points = {(const ty_point *) ARR_DATA_PTR(array), ArrayGetNItems(ARR_NDIM(array), ARR_DIMS(array))};
 
 	if (array_contains_nulls(array))
 		ereport(ERROR, errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED), errmsg("%s must not contain nulls", name),
@@ -67,8 +66,7 @@ points_of(FunctionCallInfo fcinfo, int argument, const char *name)
 	{
 		if (!isfinite(points.points[i].x) || !isfinite(points.points[i].y))
 			ty_refuse_value(psprintf("a coordinate of %s", name),
-							isfinite(points.points[i].x) ? points.points[i].y : points.points[i].x,
-							"a finite number");
+							isfinite(points.points[i].x) ? points.points[i].y : points.points[i].x, "a finite number");
 	}
 	return points;
 }
@@ -101,8 +99,8 @@ typify_pairs(PG_FUNCTION_ARGS)
 
 	if (!(isfinite(max_distance) && max_distance >= 0))
 		ty_refuse_value("max_distance", max_distance, "a finite number of at least 0");
-	ty_check_status(ty_pair_points(&ty_backend_environment, a.points, a.count, b.points, b.count, max_distance,
-								   partner));
+	ty_check_status(
+		ty_pair_points(&ty_backend_environment, a.points, a.count, b.points, b.count, max_distance, partner));
 	PG_RETURN_DATUM(places_datum(partner, a.count));
 }
 

@@ -110,7 +110,7 @@ ty_nearest_build(const ty_environment *env, const ty_point *points, size_t count
 	uint64_t *keys;
 	ty_status status;
 
-	*tree = (ty_nearest) {.points = points, .count = count, .leaves = 1};
+	*tree = (ty_nearest){.points = points, .count = count, .leaves = 1};
 	if (count >= TY_NOBODY)
 		return TY_TOO_MANY;
 	while (tree->leaves * LEAF_SIZE < count)

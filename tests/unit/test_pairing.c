@@ -46,7 +46,7 @@ pair_slowly(size_t count_a, size_t count_b, double limit, uint32_t *slow)
 	{
 		slow[i] = TY_NOBODY;
 		for (uint32_t j = 0; j < count_b; j++)
-			pairs[count++] = (pair) {ty_distance(a[i], b[j]), i, j};
+			pairs[count++] = (pair){ty_distance(a[i], b[j]), i, j};
 	}
 	qsort(pairs, count, sizeof(pair), compare_pairs);
 	for (size_t k = 0; k < count && pairs[k].distance <= limit; k++)
@@ -166,13 +166,11 @@ test_a_hundred_thousand_pairs_of_any_layout_take_seconds(void)
 		{
 			double u = random_unit(&r), v = random_unit(&r);
 
-			a[i] = layout == 0 ? (ty_point) {1, 1}
-				 : layout == 2 ? (ty_point) {sqrt(2 * i + 1.0), 0}
-							   : (ty_point) {u, v};
-			b[i] = layout == 0 ? (ty_point) {1, 1}
-				 : layout == 1 ? (ty_point) {100 + v, u}
-				 : layout == 2 ? (ty_point) {sqrt(2 * i + 2.0), 0}
-							   : (ty_point) {random_unit(&r), random_unit(&r)};
+			a[i] = layout == 0 ? (ty_point){1, 1} : layout == 2 ? (ty_point){sqrt(2 * i + 1.0), 0} : (ty_point){u, v};
+			b[i] = layout == 0	 ? (ty_point){1, 1}
+				   : layout == 1 ? (ty_point){100 + v, u}
+				   : layout == 2 ? (ty_point){sqrt(2 * i + 2.0), 0}
+								 : (ty_point){random_unit(&r), random_unit(&r)};
 		}
 		seconds = seconds_to_pair(1000);
 		CHECK(seconds < 20, "%s: %g s", layouts[layout], seconds);
