@@ -121,9 +121,9 @@ FROM (
 	GROUP BY subject.importance, subject.class, key, inset, least, most, vx, vy
 ) AS extent;
 
--- lone farms: more than 120 m from the roads
 CREATE TEMP TABLE piece AS
-SELECT id, class, k, x, y, round((dx / length)::numeric, 6)::float8 AS ux,
+SELECT id, class, k, x, y, least(x, x + dx) - 130 AS x0, greatest(x, x + dx) + 130 AS x1,
+	least(y, y + dy) - 130 AS y0, greatest(y, y + dy) + 130 AS y1, round((dx / length)::numeric, 6)::float8 AS ux,
 	round((dy / length)::numeric, 6)::float8 AS uy, length,
 	(sum(length) OVER (PARTITION BY id ORDER BY k) - length)::float8 AS start
 FROM settlement_roads, generate_series(1, ST_NPoints(geom) - 1) AS k,
@@ -133,7 +133,7 @@ FROM settlement_roads, generate_series(1, ST_NPoints(geom) - 1) AS k,
 	LATERAL (SELECT round(sqrt(dx * dx + dy * dy)::numeric, 3) AS length) AS norm
 WHERE class <> 'track';
 
--- each building's place at the nearest road: s metres along it, t metres to the left
+-- each building's place at the nearest road, if one is nearer than 130 m: s metres along it, t metres to the left
 CREATE TEMP TABLE frontage AS
 SELECT DISTINCT ON (middle.id) middle.*, piece.id AS road, piece.class AS road_class, start + s AS s, t, distance
 FROM (SELECT id, class, block, (min(x) + max(x)) / 2 AS x, (min(y) + max(y)) / 2 AS y
@@ -143,13 +143,16 @@ FROM (SELECT id, class, block, (min(x) + max(x)) / 2 AS x, (min(y) + max(y)) / 2
 		(middle.y - piece.y) * ux - (middle.x - piece.x) * uy AS t) AS foot,
 	LATERAL (SELECT middle.x - piece.x - s * ux AS ex, middle.y - piece.y - s * uy AS ey) AS away,
 	LATERAL (SELECT round(sqrt(ex * ex + ey * ey)::numeric, 3) AS distance) AS far
+WHERE middle.x BETWEEN x0 AND x1 AND middle.y BETWEEN y0 AND y1
 ORDER BY middle.id, distance, piece.id, k;
 
+-- lone farms: more than 120 m from the roads
 INSERT INTO sketch
-SELECT 5, 'farm', id, pg_temp.bar(x, y, round((ux / norm)::numeric, 6)::float8, round((uy / norm)::numeric, 6)::float8,
-	60, 60)
-FROM frontage JOIN edge USING (id), LATERAL (SELECT sqrt(ux * ux + uy * uy) AS norm) AS norm
-WHERE class = 'farm' AND distance > 120;
+SELECT 5, 'farm', id, pg_temp.bar((min(x) + max(x)) / 2, (min(y) + max(y)) / 2, round((ux / norm)::numeric, 6)::float8,
+	round((uy / norm)::numeric, 6)::float8, 60, 60)
+FROM corner JOIN edge USING (id), LATERAL (SELECT sqrt(ux * ux + uy * uy) AS norm) AS norm
+WHERE class = 'farm' AND id NOT IN (SELECT id FROM frontage WHERE distance <= 120)
+GROUP BY id, ux, uy, norm;
 
 -- 3. Along the roads: a rectangle for every 100 m with two houses or more on a side -----------------------
 
