@@ -240,15 +240,21 @@ COMMENT ON FUNCTION typify_layer_source(jsonb, text[]) IS
 CREATE FUNCTION typify_layer_shares(definition jsonb) RETURNS jsonb
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
-SET jit = off AS
+SET jit = off
+SET datestyle = ISO
+SET intervalstyle = postgres
+SET timezone = 'UTC'
+SET bytea_output = hex
+SET extra_float_digits = 1 AS
 $$
 DECLARE
 	shares jsonb;
 BEGIN
 	EXECUTE 'SELECT jsonb_agg(jsonb_build_array(grp, number, area) ORDER BY grp COLLATE "C") FROM ('
 		'SELECT grp, count(*) AS number, sum(ST_Area(geom)::numeric) AS area FROM '
-		|| typify_lod200_groups(typify_layer_source(definition), (definition->>'lod200')::regclass,
-			(definition->>'id_column')::name, (definition->>'lod200_geom_column')::name, (definition->>'group_by')::name,
+		|| typify_lod200_groups(typify_layer_source(definition), (definition->>'lod25')::regclass,
+			(definition->>'lod200')::regclass, (definition->>'id_column')::name, (definition->>'geom_column')::name,
+			(definition->>'lod200_geom_column')::name, (definition->>'group_by')::name,
 			(definition->>'lod200_group_by')::name, (definition->>'links')::regclass)
 		|| ' AS lod200 GROUP BY grp) AS share' INTO shares;
 	RETURN coalesce(shares, '[]');
@@ -538,7 +544,13 @@ COMMENT ON FUNCTION typify_layer_begin(name, text, json, integer) IS
 
 CREATE FUNCTION typify_layer_groups(layer regclass) RETURNS text[]
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
-SET search_path FROM CURRENT AS
+SET search_path FROM CURRENT
+SET jit = off
+SET datestyle = ISO
+SET intervalstyle = postgres
+SET timezone = 'UTC'
+SET bytea_output = hex
+SET extra_float_digits = 1 AS
 $$
 DECLARE
 	definition jsonb := typify_layer(layer);
@@ -557,7 +569,13 @@ CREATE FUNCTION typify_layer_batch(layer regclass, groups text[]) RETURNS TABLE 
 	member_count integer, members bigint[], area double precision, width double precision, length double precision,
 	orientation double precision, grp text)
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
-SET search_path FROM CURRENT AS
+SET search_path FROM CURRENT
+SET jit = off
+SET datestyle = ISO
+SET intervalstyle = postgres
+SET timezone = 'UTC'
+SET bytea_output = hex
+SET extra_float_digits = 1 AS
 $$
 DECLARE
 	definition jsonb := typify_layer(layer);

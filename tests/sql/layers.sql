@@ -132,7 +132,22 @@ SELECT typify_refresh_scale('layer75'), typify_refresh_scale('total'), typify_re
 SELECT pg_temp.differing('built', 'TABLE layer75') AS built, pg_temp.differing('built_nearest', 'TABLE nearest') AS nearest, pg_temp.differing('built_total', 'TABLE total') AS total, pg_temp.differing('built_links', 'TABLE with_links') AS links, pg_temp.differing('built_plain', 'TABLE plain') AS plain;
 SELECT obj_description('built'::regclass) = obj_description('layer75'::regclass) AS same_comment,
 	(SELECT array_agg(regexp_replace(indexdef, '^.* ON [^ ]+', '') ORDER BY 1) FROM pg_indexes WHERE tablename = 'built') = (SELECT array_agg(regexp_replace(indexdef, '^.* ON [^ ]+', '') ORDER BY 1) FROM pg_indexes WHERE tablename = 'layer75_table') AS same_indexes;
--- and it is refreshed by groups like any other
+-- groups are named alike whatever the session's settings say about dates and numbers
+CREATE TABLE dated AS SELECT id, DATE '2024-01-31' + block * 30 AS day, block / 7.0::float8 AS share, geom FROM lod25;
+SET datestyle = 'German, DMY';
+SET extra_float_digits = -5;
+CALL typify_build_scale('built_by_day', 'dated', 'lod200_without_block', 75000, 0, 'day');
+CALL typify_build_scale('built_by_share', 'dated', 'lod200_without_block', 75000, 0, 'share');
+SELECT typify_create_scale('by_day', 'dated', 'lod200_without_block', 75000, 0, 'day', 'table') AS layer;
+RESET datestyle;
+RESET extra_float_digits;
+SELECT typify_create_scale('by_share', 'dated', 'lod200_without_block', 75000, 0, 'share', 'table') AS layer;
+SELECT pg_temp.differing('built_by_day', 'TABLE by_day') AS by_day, pg_temp.differing('built_by_share', 'TABLE by_share') AS by_share, min(grp) AS first_day FROM by_day;
+SELECT obj_description('built_by_day_grp_idx'::regclass) = obj_description('by_day_grp_idx'::regclass) AS same_by_day, obj_description('built_by_share_grp_idx'::regclass) = obj_description('by_share_grp_idx'::regclass) AS same_by_share;
+DELETE FROM dated WHERE day = '2024-03-01';
+SELECT typify_refresh_groups('by_day', '{2024-03-01}') > 0 AS rows;
+SELECT pg_temp.differing('by_day', 'SELECT * FROM typify_derive(''dated'', ''lod200_without_block'', 75000, 0, ''day'')') AS by_day;
+-- what is built is refreshed by groups like any other
 SELECT typify_refresh_groups('built', '{1}') > 0 AS rows;
 SELECT pg_temp.differing('built', 'TABLE layer75') AS differing;
 -- stopped after two batches: what is done stays, and says that it is not all. Other arguments do not go on with it,
