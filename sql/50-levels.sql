@@ -44,6 +44,8 @@ SET search_path FROM CURRENT
 AS $$
 DECLARE
 	table_name text := typify_table_name(relation, 'table');
+	link_hint text := CASE argument WHEN 'links' THEN
+		'A table of links has lod25_id and lod200_id of an integer type.' END;
 	type oid;
 BEGIN
 	IF column_name IS NULL THEN
@@ -54,12 +56,13 @@ BEGIN
 	WHERE attrelid = relation AND attname = column_name AND attnum > 0 AND NOT attisdropped;
 	IF NOT FOUND THEN
 		RAISE EXCEPTION '% has no column %', table_name, quote_ident(column_name)
-			USING ERRCODE = '42703', HINT = format('Name one of its columns with %s => ''...''.', argument);
+			USING ERRCODE = '42703', HINT = coalesce(link_hint,
+				format('Name one of its columns with %s => ''...''.', argument));
 	ELSIF kind = 'integer' AND type NOT IN ('int2'::regtype, 'int4'::regtype, 'int8'::regtype) THEN
 		RAISE EXCEPTION 'column % of % is of type %, it must be smallint, integer or bigint', quote_ident(column_name),
 				table_name, format_type(type, NULL)
-			USING ERRCODE = '42804', HINT = format(
-				'Name a key of integers with %s => ''...'', or pass a view that numbers the rows.', argument);
+			USING ERRCODE = '42804', HINT = coalesce(link_hint, format(
+				'Name a key of integers with %s => ''...'', or pass a view that numbers the rows.', argument));
 	ELSIF kind = 'geometry' AND type <> 'geometry'::regtype THEN
 		RAISE EXCEPTION 'column % of % is of type %, it must be geometry', quote_ident(column_name), table_name,
 				format_type(type, NULL)
