@@ -53,8 +53,8 @@ clean: clean-tests
 clean-tests:
 	@for dir in tests/unit tests/fuzz tests/bench; do if [ -f $$dir/Makefile ]; then $(MAKE) -s -C $$dir clean; fi; done
 
-.PHONY: demo test fuzz bench bench-core help
-# make hands on what it is given: DATA, ROADS, OSM, ATTRIBUTION, OUT, PGVERSION, TYPIFY_DATA, N, RUNS, LARGE,
+.PHONY: demo test fuzz bench bench-core doc help
+# make hands on what it is given: DATA, ROADS, OSM, ATTRIBUTION, OUT, QGIS, PGVERSION, TYPIFY_DATA, N, RUNS, LARGE,
 # SETS, RESULTS_OUT
 export DATA
 demo: override DATA := $(DEMO_DATA)
@@ -68,6 +68,8 @@ bench:
 	@tools/bench.sh
 bench-core:
 	@tools/bench.sh core
+doc:
+	@tools/doc.sh
 
 help:
 	@echo "make                  build for the server of PG_CONFIG (default: pg_config)"
@@ -79,8 +81,10 @@ help:
 	@echo "  OSM=file.osm.pbf    ... of an OpenStreetMap extract"
 	@echo "  OUT=folder          ... pictures elsewhere"
 	@echo "make test             every test, in a throw-away server"
+	@echo "  QGIS=1              ... with QGIS, which takes 600 MB more"
 	@echo "make fuzz             both fuzz targets, SECONDS=60 each"
 	@echo "make bench            ours beside PostGIS's own, a table in doc/benchmarks.md; N=100000 RUNS=5 LARGE=1 OUT=file"
 	@echo "make bench-core       the core alone, without a server; N= RUNS= OUT="
+	@echo "make doc              the pictures of README and doc/, and what the tutorial's commands print"
 	@echo "make clean            remove what was built"
-	@echo "demo, test, fuzz and bench install missing Debian packages (as root or with sudo) and take PGVERSION=15."
+	@echo "demo, test, fuzz, bench and doc install missing Debian packages (as root or with sudo), take PGVERSION=15."

@@ -71,7 +71,8 @@ packaged_version() { apt-cache depends postgresql 2>/dev/null | sed -n 's/.*Depe
 
 PICTURE_PACKAGES="librsvg2-bin fonts-dejavu-core"
 FUZZ_PACKAGES="gcc libc6-dev clang libclang-rt-dev"
-TEST_PACKAGES="$FUZZ_PACKAGES libgmp-dev python3-scipy"
+TEST_PACKAGES="$FUZZ_PACKAGES libgmp-dev python3-scipy gdal-bin"
+QGIS_PACKAGES="python3-qgis"
 BENCH_PACKAGES="libgeos-dev valgrind"
 
 missing_packages() {

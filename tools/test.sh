@@ -1,11 +1,12 @@
 #!/bin/bash
-# test.sh - every test with all its set-up. Goes on after a failure; the last line counts.
+# test.sh - every test with all its set-up. Goes on after a failure; the last line counts. QGIS=1 installs QGIS as
+# well (600 MB), so that layers are opened in it; where it is installed they are anyway.
 . "$(dirname "$0")/common.sh"
 . "$(dirname "$0")/tally.sh"
 
 choose_version
 make_workspace
-need_packages $SERVER_PACKAGES $PICTURE_PACKAGES $TEST_PACKAGES
+need_packages $SERVER_PACKAGES $PICTURE_PACKAGES $TEST_PACKAGES ${QGIS:+$QGIS_PACKAGES}
 export TYPIFY_DATA=$(realpath -m "${TYPIFY_DATA:-$ROOT/../shared/data}")
 export WORKSPACE TALLY=$WORKSPACE/tally
 : >"$TALLY"
