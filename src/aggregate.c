@@ -23,6 +23,7 @@
 #include "core/mesh.h"
 #include "geometry.h"
 #include "options.h"
+#include "progress.h"
 
 /* The array's first size in bytes, good for nine buildings: there may be 100 000 groups of about that many. */
 #define FIRST_SIZE 512
@@ -255,7 +256,7 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 static void
 state_typify(const state *s, ty_result *result)
 {
-	ty_check_status(ty_typify(&ty_backend_environment, s->buildings, s->count, &s->parameters, result));
+	ty_typify_group(s->buildings, s->count, &s->parameters, result);
 	if (s->count >= LARGE_GROUP)
 		ty_trim_memory();
 	if (result->undrawn > 0)

@@ -42,8 +42,8 @@ backend_interrupted(void *context)
 	return false;
 }
 
-const ty_environment ty_backend_environment = {backend_allocate, backend_reallocate, backend_release,
-											   backend_interrupted, NULL};
+const ty_environment ty_backend_environment = {
+	backend_allocate, backend_reallocate, backend_release, backend_interrupted, NULL, NULL};
 
 /* glibc keeps tens of megabytes of freed arrays below any that is still in use. */
 void

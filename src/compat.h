@@ -22,4 +22,11 @@
 #define ty_primary_key_of(relation) RelationGetPrimaryKeyIndex(relation)
 #endif
 
+/* 15 refuses unknown settings of a name, where 14 warns */
+#if PG_VERSION_NUM >= 150000
+#define ty_reserve_settings(name) MarkGUCPrefixReserved(name)
+#else
+#define ty_reserve_settings(name) EmitWarningsOnPlaceholders(name)
+#endif
+
 #endif

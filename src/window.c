@@ -17,6 +17,7 @@
 #include "core/group.h"
 #include "core/mesh.h"
 #include "geometry.h"
+#include "progress.h"
 
 #define GEOMETRY 0
 #define PARAMETERS 1
@@ -121,7 +122,7 @@ typify_gathered(gathering *g, ty_result *result)
 {
 	*result = (ty_result){0};
 	if (g->count > 0)
-		ty_check_status(ty_typify(&ty_backend_environment, g->buildings, g->count, &g->parameters, result));
+		ty_typify_group(g->buildings, g->count, &g->parameters, result);
 	pfree(g->buildings);
 }
 

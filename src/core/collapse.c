@@ -236,6 +236,13 @@ push_near(ty_run *run, uint32_t v)
 
 /* ---- the loop ---- */
 
+/* how few vertices may be left in the end */
+static size_t
+least_vertices(ty_stop stop)
+{
+	return stop.min_distance > 0 || stop.count < 1 ? 1 : stop.count;
+}
+
 /* whether merging goes on: too many are left, or two of them are too near */
 static bool
 goes_on(ty_run *run, ty_stop stop)
@@ -306,20 +313,17 @@ collapse_all(ty_run *run, ty_stop stop)
 	for (size_t step = 1; status == TY_OK && !done && goes_on(run, stop); step++)
 	{
 		status = next_merges(run, stop, &done);
-		if (status == TY_OK && step % POLL_INTERVAL == 0 && ty_interrupted(run->env))
-			status = TY_INTERRUPTED;
+		if (status == TY_OK && step % POLL_INTERVAL == 0)
+		{
+			if (ty_interrupted(run->env))
+				status = TY_INTERRUPTED;
+			ty_progress(run->env, TY_COLLAPSING, run->sequence->count, run->n - least_vertices(stop));
+		}
 	}
 	return status;
 }
 
 /* ---- set-up ---- */
-
-/* how few vertices may be left in the end */
-static size_t
-least_vertices(ty_stop stop)
-{
-	return stop.min_distance > 0 || stop.count < 1 ? 1 : stop.count;
-}
 
 /* Builds the mesh over the distinct places, after the merges at cost 0. */
 static ty_status

@@ -24,7 +24,7 @@ plain_release(void *context, void *memory)
 	free(memory);
 }
 
-const ty_environment ty_plain_environment = {plain_allocate, plain_reallocate, plain_release, NULL, NULL};
+const ty_environment ty_plain_environment = {plain_allocate, plain_reallocate, plain_release, NULL, NULL, NULL};
 
 /* bytes of an array, or 0 when they do not fit a size_t */
 static size_t

@@ -26,6 +26,15 @@ typedef enum ty_status
 	TY_BROKEN		/* an invariant does not hold: a fault of ours */
 } ty_status;
 
+/* What the core is about, in this order. */
+typedef enum ty_phase
+{
+	TY_ORDERING,
+	TY_MESHING,
+	TY_COLLAPSING,
+	TY_DRAWING
+} ty_phase;
+
 typedef struct ty_environment
 {
 	/* size > 0; memory is aligned for any type and not cleared; NULL when there is none */
@@ -36,6 +45,8 @@ typedef struct ty_environment
 	void (*release)(void *context, void *memory);
 	/* true: stop as soon as possible. May be NULL. */
 	bool (*interrupted)(void *context);
+	/* told now and then, a few thousand steps apart, which share (0 .. 1) of a phase is done. May be NULL. */
+	void (*progress)(void *context, ty_phase phase, double share);
 	void *context;
 } ty_environment;
 
@@ -51,6 +62,13 @@ static inline bool
 ty_interrupted(const ty_environment *env)
 {
 	return env->interrupted != NULL && env->interrupted(env->context);
+}
+
+static inline void
+ty_progress(const ty_environment *env, ty_phase phase, size_t done, size_t all)
+{
+	if (env->progress != NULL)
+		env->progress(env->context, phase, (double) done / (double) all);
 }
 
 /* For long loops of small steps: looks at every 4096th step only, a fraction of a millisecond. */

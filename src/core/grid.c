@@ -9,6 +9,7 @@
 #define MAX_CELLS_EXPONENT 1000			  /* coordinates stay below 2^this cells, so that dividing cannot overflow */
 #define MIN_CELL_EXPONENT (-1000)		  /* nor underflow */
 #define AHEAD 16						  /* buildings fetched before they are needed */
+#define PROGRESS_INTERVAL 65536			  /* buildings between two words of progress */
 #define POLL_INTERVAL 65536				  /* copies of one place that are sorted without a look for an interrupt */
 
 /* nearest whole number, halves up; exact for every finite v */
@@ -343,6 +344,8 @@ ty_canonical_order(const ty_environment *env, const ty_building *buildings, size
 	{
 		if (ty_interrupted_at(env, i))
 			return TY_INTERRUPTED;
+		if (i % PROGRESS_INTERVAL == 0)
+			ty_progress(env, TY_ORDERING, i, 2 * n);
 		order[i] = (uint32_t) i;
 		keys[i] = ty_hilbert_key(ty_grid_snap(grid, buildings[i].x, buildings[i].y));
 	}
@@ -357,6 +360,8 @@ ty_canonical_order(const ty_environment *env, const ty_building *buildings, size
 		position[rank] = ty_grid_snap(grid, buildings[order[rank]].x, buildings[order[rank]].y);
 		if (ty_interrupted_at(env, rank))
 			status = TY_INTERRUPTED;
+		if (rank % PROGRESS_INTERVAL == 0)
+			ty_progress(env, TY_ORDERING, n + rank, 2 * n);
 	}
 	return status;
 }

@@ -201,6 +201,8 @@ describe_all(const ty_environment *env, const group *g, const uint32_t *label, s
 		next++;
 		if (ty_interrupted_at(env, next))
 			return TY_INTERRUPTED;
+		if (next % 65536 == 0)
+			ty_progress(env, TY_DRAWING, next, result->count);
 	}
 	return status;
 }

@@ -31,6 +31,7 @@ typedef struct builder
 	ty_mesh *mesh;
 	const uint32_t *list;
 	const uint64_t *keys;
+	size_t n;
 } builder;
 
 static uint32_t
@@ -296,8 +297,12 @@ build(const builder *b, size_t low, size_t high, part *result)
 	middle = split_point(b->keys, low, high);
 	if ((status = build(b, low, middle, &first)) != TY_OK || (status = build(b, middle, high, &second)) != TY_OK)
 		return status;
-	if (high - low > POLL_RANGE && ty_interrupted(b->mesh->env))
-		return TY_INTERRUPTED;
+	if (high - low > POLL_RANGE)
+	{
+		if (ty_interrupted(b->mesh->env))
+			return TY_INTERRUPTED;
+		ty_progress(b->mesh->env, TY_MESHING, high, b->n);
+	}
 	t = (uint32_t) (2 * middle - 2);
 	/* seen so that the separating line is upright: for a level one the plane is turned by 90 degrees */
 	if (p[first.right].position.x < p[second.left].position.x)
@@ -329,7 +334,7 @@ index_edges(ty_mesh *mesh)
 ty_status
 ty_mesh_triangulate(ty_mesh *mesh, const uint32_t *list, const uint64_t *keys, size_t n)
 {
-	builder b = {mesh, list, keys};
+	builder b = {mesh, list, keys, n};
 	part whole;
 	ty_status status = build(&b, 0, n, &whole);
 

@@ -65,5 +65,5 @@ ty_environment
 counting_environment(counting *counter)
 {
 	*counter = (counting){0};
-	return (ty_environment){count_allocate, count_reallocate, count_release, NULL, counter};
+	return (ty_environment){count_allocate, count_reallocate, count_release, NULL, NULL, counter};
 }

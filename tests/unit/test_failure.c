@@ -123,7 +123,7 @@ interrupted(void *context)
 	return true;
 }
 
-static const ty_environment watched = {allocate, reallocate, release, interrupted, NULL};
+static const ty_environment watched = {allocate, reallocate, release, interrupted, NULL, NULL};
 
 static void
 begin(size_t fail_at, size_t stop_at, bool jump)
