@@ -22,6 +22,8 @@ void
 ty_retire(ty_run *run, uint32_t kept, uint32_t gone)
 {
 	run->vertex[gone].size = kept;
+	if (run->queue.key != NULL)
+		run->queue.key[gone] = TY_NO_KEY;
 }
 
 void
@@ -259,15 +261,15 @@ ty_enter_merged(ty_run *run, uint32_t kept)
 }
 
 /*
- * Collapses the edge. When the merged vertex comes to lie on another one, the two are the next to merge, at
+ * Collapses the edge e, of the half-edge h. When the merged vertex comes to lie on another one, the two are the next to merge, at
  * cost 0, unless that would be one merge too many.
  */
 static ty_status
-collapse_edge(ty_run *run, ty_edge e, ty_stop stop)
+collapse_edge(ty_run *run, ty_edge e, uint32_t h, ty_stop stop)
 {
 	uint32_t kept = ty_smaller(e.owner, e.other), gone = ty_larger(e.owner, e.other), met;
 	ty_position to = merge(run, kept, gone, e.cost);
-	ty_status status = ty_mesh_collapse(&run->mesh, kept, gone, to, &met);
+	ty_status status = ty_mesh_collapse(&run->mesh, h, to, &met);
 
 	ty_retire(run, kept, gone);
 	while (status == TY_OK && met != TY_NONE)
@@ -294,14 +296,15 @@ next_merges(ty_run *run, ty_stop stop, bool *done)
 {
 	size_t merges = run->sequence->count;
 	ty_edge least;
+	uint32_t h;
 	ty_status status;
 
 	status = ty_collapse_batch(run, run->n - merges > stop.count ? run->n - merges - stop.count : 0, stop.min_distance);
 	if (status != TY_OK || run->sequence->count > merges)
 		return status;
-	status = ty_queue_least(run, &least);
+	status = ty_queue_least(run, &least, &h);
 	*done = status == TY_OK && least.owner == TY_NONE;
-	return status == TY_OK && !*done ? collapse_edge(run, least, stop) : status;
+	return status == TY_OK && !*done ? collapse_edge(run, least, h, stop) : status;
 }
 
 static ty_status

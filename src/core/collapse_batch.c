@@ -136,7 +136,8 @@ gather(ty_run *run, batch *b)
 	for (;;)
 	{
 		ty_edge e;
-		ty_status status = ty_queue_least(run, &e);
+		uint32_t h;
+		ty_status status = ty_queue_least(run, &e, &h);
 
 		if (status == TY_OK && e.owner == TY_NONE)
 			return TY_OK;

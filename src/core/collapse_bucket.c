@@ -22,7 +22,8 @@
 
 /* Walks side by side: more than the memory requests that a core has under way at a time (measured: 16 to 48). */
 #define ABREAST 24
-#define STEPS 16 /* a walk goes no farther: most stars have 6 corners */
+#define SLICE 512 /* vertices of a bucket whose keys are fetched side by side */
+#define STEPS 16  /* a walk goes no farther: most stars have 6 corners */
 
 /*
  * Where all distances are alike one bucket holds nearly all vertices, and a heap of them would take as much memory as
@@ -48,9 +49,10 @@ ty_bucket_begin(ty_run *run)
 	queue->free_chunk = TY_NONE;
 	queue->limit = (ty_edge){0, 0, 0};
 	queue->chunk_capacity = run->n / 14 + 64;
+	queue->sorted = ty_allocate_array(run->env, 2 * TY_SORTED, sizeof *queue->sorted);
 	queue->bucket = ty_allocate_array(run->env, queue->buckets, sizeof *queue->bucket);
 	queue->chunk = ty_allocate_array(run->env, queue->chunk_capacity, sizeof *queue->chunk);
-	if (queue->bucket == NULL || queue->chunk == NULL)
+	if (queue->sorted == NULL || queue->bucket == NULL || queue->chunk == NULL)
 		return TY_NO_MEMORY;
 	for (uint32_t b = 0; b < queue->buckets; b++)
 		queue->bucket[b] = (ty_bucket){TY_NONE, 0};
@@ -108,11 +110,11 @@ first_count(const ty_bucket *bucket)
 	return bucket->count == 0 ? 0 : (bucket->count - 1) % TY_CHUNK_VERTICES + 1;
 }
 
-/* whether a vertex that waits in bucket b is still there, with that key */
+/* whether a vertex in bucket b still has that key; one that is gone has none */
 static bool
 is_waiting(const ty_run *run, uint32_t v, uint32_t b)
 {
-	return run->vertex[v].edge != TY_NONE && ty_bucket_of(&run->queue, run->queue.key[v]) == b;
+	return ty_bucket_of(&run->queue, run->queue.key[v]) == b;
 }
 
 /* ---- fetching stars side by side ---- */
@@ -192,7 +194,7 @@ look_again(ty_run *run, lookout *looked)
 	{
 		ty_edge least = ty_least_edge(run, looked->vertex[i]);
 
-		status = ty_queue_set(run, least);
+		status = ty_queue_settle(run, least);
 		if (least.other != TY_NONE && ty_is_near(&run->queue, least))
 			other[others++] = least.other;
 	}
@@ -201,28 +203,21 @@ look_again(ty_run *run, lookout *looked)
 	return status;
 }
 
-/* Takes a chunk's vertices to `looked`, and looks at each full house of them; those that have another key now are out. */
+/* Looks at those of a slice of bucket b that still have their key. */
 static ty_status
-drain_chunk(ty_run *run, uint32_t b, const ty_chunk *chunk, uint32_t vertices, lookout *looked)
+look_at_slice(ty_run *run, uint32_t b, const uint32_t *slice, size_t count)
 {
+	lookout looked = {.count = 0};
 	ty_status status = TY_OK;
 
-	for (uint32_t i = 0; i < vertices; i++)
+	for (size_t i = 0; i < count && status == TY_OK; i++)
 	{
-		__builtin_prefetch(&run->vertex[chunk->vertex[i]]);
-		__builtin_prefetch(&run->queue.key[chunk->vertex[i]]);
+		if (is_waiting(run, slice[i], b))
+			looked.vertex[looked.count++] = slice[i];
+		if (looked.count == ABREAST)
+			status = look_again(run, &looked);
 	}
-	for (uint32_t i = 0; i < vertices && status == TY_OK; i++)
-	{
-		uint32_t v = chunk->vertex[i];
-
-		if (!is_waiting(run, v, b))
-			continue;
-		looked->vertex[looked->count++] = v;
-		if (looked->count == ABREAST)
-			status = look_again(run, looked);
-	}
-	return status;
+	return status == TY_OK ? look_again(run, &looked) : status;
 }
 
 /* ---- limits ---- */
@@ -282,8 +277,9 @@ ty_bucket_drain(ty_run *run, bool *found)
 {
 	ty_queue *queue = &run->queue;
 	uint32_t b = queue->next, vertices;
+	uint32_t slice[SLICE];
+	size_t count = 0;
 	ty_bucket bucket;
-	lookout looked = {.count = 0};
 	ty_status status = TY_OK;
 
 	while (b < queue->buckets && queue->bucket[b].first == TY_NONE)
@@ -293,22 +289,30 @@ ty_bucket_drain(ty_run *run, bool *found)
 		return TY_OK;
 	queue->next = b;
 	queue->limit = queue->bucket[b].count > GIANT(run->n) ? limit_of_part(run, b) : end_of_bucket(queue, b);
+	queue->sorted_count = 0;
 	bucket = queue->bucket[b];
 	vertices = first_count(&bucket);
 	queue->bucket[b] = (ty_bucket){TY_NONE, 0};
 	while (bucket.first != TY_NONE && status == TY_OK)
 	{
-		ty_chunk chunk = queue->chunk[bucket.first]; /* a copy: others may take its place */
+		uint32_t c = bucket.first;
 
-		if (chunk.next != TY_NONE)
-			__builtin_prefetch(&queue->chunk[chunk.next]);
-		queue->chunk[bucket.first].next = queue->free_chunk;
-		queue->free_chunk = bucket.first;
-		status = drain_chunk(run, b, &chunk, vertices, &looked);
-		bucket.first = chunk.next;
+		for (uint32_t i = 0; i < vertices; i++)
+		{
+			slice[count++] = queue->chunk[c].vertex[i];
+			__builtin_prefetch(&queue->key[slice[count - 1]]);
+		}
+		bucket.first = queue->chunk[c].next;
+		queue->chunk[c].next = queue->free_chunk;
+		queue->free_chunk = c;
 		vertices = TY_CHUNK_VERTICES;
-		if (status == TY_OK && ty_interrupted_at(run->env, chunk.next))
+		if (count + TY_CHUNK_VERTICES <= SLICE && bucket.first != TY_NONE)
+			continue;
+		status = look_at_slice(run, b, slice, count);
+		count = 0;
+		if (status == TY_OK && ty_interrupted(run->env))
 			status = TY_INTERRUPTED;
 	}
-	return status == TY_OK ? look_again(run, &looked) : status;
+	ty_queue_sort(run, end_of_bucket(queue, b - 1).cost);
+	return status;
 }

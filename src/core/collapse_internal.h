@@ -12,6 +12,10 @@ typedef struct ty_edge
 	uint32_t owner, other; /* other TY_NONE: no edge but a lower bound for the owner's edges */
 } ty_edge;
 
+#define TY_NO_KEY 0x7f800000 /* INFINITY: nothing to cover, or gone */
+
+#define TY_SORTED 512 /* entries of a bucket that are sorted; more of them go into the heap */
+
 /* vertices that wait in a bucket; a cache line */
 #define TY_CHUNK_VERTICES 15
 typedef struct ty_chunk
@@ -31,7 +35,10 @@ typedef struct ty_bucket
 typedef struct ty_queue
 {
 	int32_t *key; /* [n] bits of a float not above the costs of the edges that the vertex covers */
-	ty_edge *heap;
+	ty_edge
+		*sorted; /* [2 * TY_SORTED] the least entries of all come from here (the second half: not yet in order) ... */
+	size_t sorted_next, sorted_count;
+	ty_edge *heap; /* ... or from here */
 	size_t heap_count, heap_capacity;
 	ty_edge limit;	   /* entries up to this one are in the heap, all others in buckets */
 	ty_bucket *bucket; /* [buckets] those before `next` are empty */
@@ -94,8 +101,8 @@ ty_status ty_queue_begin(ty_run *run);
 void ty_queue_free(ty_run *run);
 /* Gives the owner a key, and with it its place in the queue; a cost of INFINITY is none. */
 ty_status ty_queue_set(ty_run *run, ty_edge e);
-/* The least edge of the mesh; owner TY_NONE when there is none. It stays in the queue. */
-ty_status ty_queue_least(ty_run *run, ty_edge *least);
+/* The least edge of the mesh, and its half-edge; owner TY_NONE when there is none. It stays in the queue. */
+ty_status ty_queue_least(ty_run *run, ty_edge *least, uint32_t *h);
 /* Takes both ends out of the queue, as partners, until they are given keys again; their edges count as covered. */
 void ty_queue_part(ty_run *run, uint32_t a, uint32_t b);
 /* whether a and b have been taken out as partners */
@@ -104,6 +111,11 @@ bool ty_queue_partners(const ty_run *run, uint32_t a, uint32_t b);
 ty_edge ty_least_edge(const ty_run *run, uint32_t v);
 /* the mesh's edge_made: covers an edge between two vertices that keep their keys */
 void ty_cover_edge(void *context, uint32_t a, uint32_t b);
+
+/* While a bucket is emptied: as ty_queue_set, but what is near may have to wait for ty_queue_sort. */
+ty_status ty_queue_settle(ty_run *run, ty_edge e);
+/* Ends the emptying of a bucket whose costs begin at low. */
+void ty_queue_sort(ty_run *run, double low);
 
 /* ---- collapse_bucket.c ---- */
 
@@ -138,7 +150,7 @@ void ty_part(ty_run *run, uint32_t kept, uint32_t gone, ty_position merged, ty_p
 ty_position ty_merged_place(const ty_run *run, uint32_t a, uint32_t b);
 /* Records a merge that has been joined. */
 void ty_record(ty_run *run, uint32_t gone, double cost);
-/* Remembers, once gone is out of the mesh, into which vertex it went: in its size, until there is room for a list. */
+/* Remembers, once gone is out of the mesh, into which vertex it went (in its size, until there is room for a list). */
 void ty_retire(ty_run *run, uint32_t kept, uint32_t gone);
 /* What is left to do once a merged vertex is in the mesh. */
 ty_status ty_enter_merged(ty_run *run, uint32_t kept);

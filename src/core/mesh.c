@@ -461,10 +461,10 @@ refill(ty_mesh *mesh, const change *c, uint32_t *met)
 }
 
 ty_status
-ty_mesh_collapse(ty_mesh *mesh, uint32_t s, uint32_t t, ty_position to, uint32_t *met)
+ty_mesh_collapse(ty_mesh *mesh, uint32_t h, ty_position to, uint32_t *met)
 {
+	uint32_t s = ty_origin(mesh, h), t = ty_target(mesh, h);
 	uint32_t kept = s < t ? s : t, gone = s < t ? t : s;
-	uint32_t h = ty_mesh_find_edge(mesh, kept, gone);
 	change c = {{kept, gone}, 2, kept, to};
 	bool has_ghost, chain;
 	ty_status status = read_ring(mesh, h, &has_ghost);

@@ -63,11 +63,11 @@ ty_status ty_mesh_build(const ty_environment *env, ty_vertex *vertex, size_t ver
 void ty_mesh_free(ty_mesh *mesh);
 
 /*
- * Replaces s and t, the ends of an edge, by one vertex at `to` and restores the Delaunay property. The
+ * Replaces the ends of the half-edge h, s and t, by one vertex at `to` and restores the Delaunay property. The
  * vertex keeps the smaller of the two numbers. Where another vertex w lies at `to` already, s and t leave
  * the mesh and *met = w, to be merged next; otherwise *met = TY_NONE.
  */
-ty_status ty_mesh_collapse(ty_mesh *mesh, uint32_t s, uint32_t t, ty_position to, uint32_t *met);
+ty_status ty_mesh_collapse(ty_mesh *mesh, uint32_t h, ty_position to, uint32_t *met);
 
 /* The vertex moves to `to` (the second half of a merge at distance 0); otherwise as ty_mesh_collapse. */
 ty_status ty_mesh_move(ty_mesh *mesh, uint32_t v, uint32_t renamed, ty_position to, uint32_t *met);
@@ -144,6 +144,20 @@ static inline uint32_t
 ty_next_around(const ty_mesh *mesh, uint32_t h)
 {
 	return ty_opposite(mesh, ty_previous_in_triangle(h));
+}
+
+/* the half-edge from s, which is no ghost, to t; TY_NONE when there is none */
+static inline uint32_t
+ty_mesh_find_edge(const ty_mesh *mesh, uint32_t s, uint32_t t)
+{
+	uint32_t first = mesh->vertex[s].edge, h = first;
+
+	do
+	{
+		if (ty_target(mesh, h) == t)
+			return h;
+	} while ((h = ty_next_around(mesh, h)) != first);
+	return TY_NONE;
 }
 
 /*

@@ -68,20 +68,6 @@ ty_mesh_is_ghost(const ty_mesh *mesh, uint32_t t)
 	return v[0] == TY_GHOST || v[1] == TY_GHOST || v[2] == TY_GHOST;
 }
 
-/* the half-edge from s, which is no ghost, to t; TY_NONE when there is none */
-static inline uint32_t
-ty_mesh_find_edge(const ty_mesh *mesh, uint32_t s, uint32_t t)
-{
-	uint32_t first = mesh->vertex[s].edge, h = first;
-
-	do
-	{
-		if (ty_target(mesh, h) == t)
-			return h;
-	} while ((h = ty_next_around(mesh, h)) != first);
-	return TY_NONE;
-}
-
 /* orientation of three vertices, see ty_orientation */
 static inline int64_t
 ty_turn(const ty_mesh *mesh, uint32_t a, uint32_t b, uint32_t c)
