@@ -206,15 +206,16 @@ radix_pass(const uint64_t *from_keys, const uint32_t *from_values, uint64_t *to_
 	return true;
 }
 
+/* Sorts by the bits of the keys from `lowest` to the one before `end`, stably. */
 static ty_status
 radix_sort(const ty_environment *env, uint64_t *keys, uint32_t *values, size_t n, uint64_t *other_keys,
-		   uint32_t *other_values)
+		   uint32_t *other_values, int lowest, int end)
 {
 	uint64_t *from_keys = keys, *to_keys = other_keys;
 	uint32_t *from_values = values, *to_values = other_values;
 	int width = n < LARGE_SORT ? 8 : 11;
 
-	for (int shift = 0; shift < 64; shift += width)
+	for (int shift = lowest; shift < end; shift += width)
 	{
 		if (ty_interrupted(env))
 			return TY_INTERRUPTED;
@@ -237,6 +238,30 @@ radix_sort(const ty_environment *env, uint64_t *keys, uint32_t *values, size_t n
 	return TY_OK;
 }
 
+/* Bits below this one are seldom looked at: the bits above tell the keys of nearly all buildings apart. */
+#define LOW_BITS 31
+
+/* Sorts each run of keys that are alike but for their low bits. */
+static ty_status
+sort_runs(const ty_environment *env, uint64_t *keys, uint32_t *values, size_t n, uint64_t *other_keys,
+		  uint32_t *other_values)
+{
+	ty_status status = TY_OK;
+
+	for (size_t first = 0, next; first < n && status == TY_OK; first = next)
+	{
+		for (next = first + 1; next < n && keys[next] >> LOW_BITS == keys[first] >> LOW_BITS; next++)
+			;
+		if (next - first <= INSERTION_LIMIT)
+			insertion_sort(keys + first, values + first, next - first);
+		else
+			status = radix_sort(env, keys + first, values + first, next - first, other_keys, other_values, 0, LOW_BITS);
+		if (ty_interrupted_at(env, first))
+			status = TY_INTERRUPTED;
+	}
+	return status;
+}
+
 ty_status
 ty_sort_keys(const ty_environment *env, uint64_t *keys, uint32_t *values, size_t n)
 {
@@ -252,7 +277,13 @@ ty_sort_keys(const ty_environment *env, uint64_t *keys, uint32_t *values, size_t
 	other_keys = ty_allocate_array(env, n, sizeof *other_keys);
 	other_values = ty_allocate_array(env, n, sizeof *other_values);
 	if (other_keys != NULL && other_values != NULL)
-		status = radix_sort(env, keys, values, n, other_keys, other_values);
+	{
+		bool split = n >= LARGE_SORT;
+
+		status = radix_sort(env, keys, values, n, other_keys, other_values, split ? LOW_BITS : 0, 64);
+		if (status == TY_OK && split)
+			status = sort_runs(env, keys, values, n, other_keys, other_values);
+	}
 	ty_release(env, other_keys);
 	ty_release(env, other_values);
 	return status;
