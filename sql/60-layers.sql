@@ -487,16 +487,21 @@ $$;
 COMMENT ON FUNCTION typify_refresh_groups(regclass, text[]) IS
 'Derives groups of a table layer anew and returns the number of rows written. groups: those in which buildings were added, changed, moved or removed, as text (a NULL element is the NULL group); a group that is no longer there loses its rows. Afterwards the layer has the rows that deriving it anew would give: groups whose calibration moved with the change are refreshed as well, that is, all that use the overall values, and those whose LOD200 objects changed. Where options give both exponent and psi, or without LOD200, nothing is calibrated and only the groups named are touched. Errors: 42809 for what is no layer or is a materialized view; 0A000 for a layer whose allocation is total; 55000 for one that typify_build_scale has not finished; 23505 when a building that came from a group that is not named represents a placeholder there; 42P01 when a table from which it is derived is there no more; 22004 for NULL.';
 
-CREATE FUNCTION typify_layer_state(definition jsonb) RETURNS jsonb
+CREATE FUNCTION typify_layer_state(definition jsonb) RETURNS bigint
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
-SET jit = off AS
+SET jit = off
+SET datestyle = ISO
+SET intervalstyle = postgres
+SET timezone = 'UTC'
+SET bytea_output = hex
+SET extra_float_digits = 1 AS
 $$
 DECLARE
 	state bigint;
 BEGIN
 	EXECUTE format('SELECT sum(hash_record(b)) FROM %s AS b', typify_layer_source(definition)) INTO state;
-	RETURN coalesce(to_jsonb(state), '0');
+	RETURN coalesce(state, 0);
 END
 $$;
 
@@ -576,56 +581,41 @@ $$;
 COMMENT ON FUNCTION typify_layer_begin(name, text, json, integer) IS
 'The table that typify_build_scale fills, and how many groups it will have. It is made now, with "finished": false in its comment, or is the one that an earlier call with the same arguments left unfinished. What all batches go by is kept in the comment of its index on grp: "plan" (see typify_layer_plan), and from what that was made, "state" (typify_layer_state) and "lod200" (typify_layer_shares). Where these are no longer the same, the table is emptied and planned anew. Error 42P07 for any other relation of that name.';
 
-CREATE FUNCTION typify_layer_batch(definition jsonb, plan jsonb, groups text[]) RETURNS TABLE (id bigint, geom geometry,
-	member_count integer, members bigint[], area double precision, width double precision, length double precision,
-	orientation double precision, grp text)
-LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
-SET search_path FROM CURRENT AS
-$$
-DECLARE
-	base typify_options := jsonb_populate_record(NULL::typify_options, nullif(definition->'options', 'null'));
-	levels typify_calibration[];
-	hidden text[];
-BEGIN
-	SELECT array_agg(ROW(one->>0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, typify_options_with(base,
-			(one->>1)::float8, (one->>2)::float8, (one->>3)::bigint), NULL, NULL)::typify_calibration),
-		array_agg(typify_group_key(one->>0)) FILTER (WHERE (one->>4)::boolean)
-	INTO levels, hidden
-	FROM jsonb_array_elements(plan) AS one;
-	RETURN QUERY SELECT * FROM typify_draw(typify_layer_source(definition, groups), (definition->>'scale')::float8,
-		(definition->>'s_u')::float8, levels, hidden,
-		definition->>'group_by' IS NOT NULL OR definition->>'links' IS NOT NULL);
-END
-$$;
-
-COMMENT ON FUNCTION typify_layer_batch(jsonb, jsonb, text[]) IS
-'The rows of some groups of a layer, by their part of its plan.';
-
 CREATE FUNCTION typify_layer_build(layer regclass, first integer, last integer) RETURNS void
 LANGUAGE plpgsql
-SET search_path FROM CURRENT AS
+SET search_path FROM CURRENT
+SET extra_float_digits = 1 AS
 $$
 DECLARE
 	definition jsonb;
 	plan jsonb;
-	groups text[];
+	base typify_options;
+	todo text[];
+	keys text[];
+	levels typify_calibration[];
+	hidden text[];
 BEGIN
 	-- two calls that build the same layer at the same time take turns, and neither repeats what the other did
 	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
 	definition := typify_layer(layer);
 	plan := typify_layer_comment(typify_layer_shares_index(layer))->'plan';
-	IF plan IS NULL THEN
-		RETURN;
-	END IF;
-	EXECUTE format('SELECT jsonb_agg(one ORDER BY place), array_agg(grp ORDER BY place) '
-		'FROM (SELECT one, one->>0 AS grp, place FROM jsonb_array_elements($1) WITH ORDINALITY AS one (one, place) '
-		'WHERE place BETWEEN $2 AND $3) AS todo '
+	base := jsonb_populate_record(base, nullif(definition->'options', 'null'));
+	EXECUTE format('SELECT array_agg(grp) FROM (SELECT one->>0 AS grp '
+			'FROM jsonb_array_elements($1) WITH ORDINALITY AS one (one, place) WHERE place BETWEEN $2 AND $3) AS todo '
 		'WHERE CASE WHEN grp IS NULL THEN NOT EXISTS (SELECT FROM %1$s AS done WHERE done.grp IS NULL) '
 		'ELSE NOT EXISTS (SELECT FROM %1$s AS done WHERE done.grp = todo.grp) END', layer)
-	INTO plan, groups USING plan, first, last;
-	IF groups IS NOT NULL THEN
-		PERFORM typify_layer_replace(layer, groups,
-			format('typify_layer_batch(%L::jsonb, %L::jsonb, $1)', definition, plan));
+	INTO todo USING plan, first, last;
+	keys := typify_group_keys(todo);
+	SELECT array_agg(ROW(one->>0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, typify_options_with(base,
+			(one->>1)::float8, (one->>2)::float8, (one->>3)::bigint), NULL, NULL)::typify_calibration),
+		array_agg(typify_group_key(one->>0)) FILTER (WHERE (one->>4)::boolean)
+	INTO levels, hidden
+	FROM jsonb_array_elements(plan) AS one WHERE typify_group_key(one->>0) = ANY (keys);
+	IF levels IS NOT NULL THEN
+		PERFORM typify_layer_replace(layer, todo, format(
+			'typify_draw(%L, %L::float8, %L::float8, %L::typify_calibration[], %L::text[], %L::boolean)',
+			typify_layer_source(definition, todo), definition->>'scale', definition->>'s_u', levels, hidden,
+			definition->>'group_by' IS NOT NULL OR definition->>'links' IS NOT NULL));
 	END IF;
 END
 $$;

@@ -189,6 +189,15 @@ SET typify_test.stop = off;
 UPDATE lod200 SET geom = ST_Expand(geom, 2) WHERE id = (SELECT max(id) FROM lod200);
 CALL typify_build_scale('stopped', 'stopping', 'lod200', 700000, 0.5, 'block', allocation => 'total', batch => 3);
 SELECT pg_temp.differing('stopped', 'SELECT * FROM typify_derive(''lod25'', ''lod200'', 700000, 0.5, ''block'', allocation => ''total'')') AS differing, count(*) FILTER (WHERE geom IS NULL) AS hidden FROM stopped;
+-- ... and goes on where the groups are the same, whatever the session's settings say of their names
+DROP TABLE stopped;
+CREATE VIEW stopping_by_day AS SELECT id, DATE '2024-01-31' + block * 30 AS day, geom FROM stopping;
+SET typify_test.stop = on;
+CALL typify_build_scale('stopped', 'stopping_by_day', NULL, 75000, 0.5, 'day', batch => 3);
+SET typify_test.stop = off;
+SET datestyle = 'German, DMY';
+CALL typify_build_scale('stopped', 'stopping_by_day', NULL, 75000, 0.5, 'day');
+RESET datestyle;
 -- a failure in the first batch leaves nothing; nor does a call inside a transaction block
 DROP TABLE stopped;
 CALL typify_build_scale('never', 'lod25', NULL, 20000, 0.5, 'block');
