@@ -267,21 +267,6 @@ END $$;
 COMMENT ON FUNCTION typify_calibrate_levels(text, text, double precision, typify_options, boolean, text[], boolean) IS
 'The calibrations of two sub-selects, the whole first; NULL when there is no building. grouped: false for the whole alone. wanted: only these groups need psi; NULL for all. report: also find mean_placeholder_area where psi has no use for it. Errors: 22023 for a LOD200 without objects or with more of them than buildings; others as of typify_placeholders.';
 
-CREATE FUNCTION typify_check_links(levels typify_calibration[], links regclass) RETURNS void
-LANGUAGE plpgsql IMMUTABLE PARALLEL SAFE
-SET search_path FROM CURRENT
-AS $$
-DECLARE
-	twice text := (SELECT min(l.grp) FROM unnest(levels) AS l WHERE NOT l.overall AND l.n200 > 1);
-BEGIN
-	IF links IS NOT NULL AND twice IS NOT NULL THEN
-		RAISE EXCEPTION 'key % of links occurs more than once in lod200', twice
-			USING ERRCODE = '22023', HINT = 'Name the key of lod200 with lod200_group_by => ''...''.';
-	END IF;
-END $$;
-COMMENT ON FUNCTION typify_check_links(typify_calibration[], regclass) IS
-'Refuses (22023) a LOD200 in which two objects have one key, when its objects are the groups. links NULL: they are not.';
-
 CREATE FUNCTION typify_calibrate(
 	lod25 regclass,
 	lod200 regclass,
@@ -290,6 +275,7 @@ CREATE FUNCTION typify_calibrate(
 	options typify_options DEFAULT NULL,
 	id_column name DEFAULT 'id',
 	geom_column name DEFAULT 'geom',
+	lod200_id_column name DEFAULT 'id',
 	lod200_geom_column name DEFAULT 'geom',
 	lod200_group_by name DEFAULT NULL,
 	links regclass DEFAULT NULL)
@@ -304,23 +290,19 @@ SET bytea_output = hex
 SET extra_float_digits = 1
 AS $$
 DECLARE
-	lod25_source text := typify_lod25_source(lod25, id_column, geom_column, group_by, links);
-	lod200_source text := typify_lod200_groups(lod25_source, lod25, lod200, id_column, geom_column,
-		lod200_geom_column, group_by, lod200_group_by, links);
-	levels typify_calibration[];
+	source record;
 BEGIN
+	PERFORM typify_table_name(lod200, 'lod200');
 	PERFORM typify_check_parameters(coalesce(options.lod200_scale, 200000), s_u, options);
-	PERFORM typify_check_srids(lod25_source, lod25, geom_column, lod200, lod200_geom_column, NULL);
-	PERFORM typify_check_ids(lod25_source, lod25, id_column, links);
-	levels := typify_calibrate_levels(lod25_source, lod200_source, s_u, options,
-		group_by IS NOT NULL OR links IS NOT NULL, NULL, true);
-	PERFORM typify_check_links(levels, links);
-	RETURN QUERY SELECT * FROM unnest(levels);
+	source := typify_levels(lod25, lod200, id_column, geom_column, lod200_id_column, lod200_geom_column, group_by,
+		lod200_group_by, links, false);
+	RETURN QUERY SELECT * FROM unnest(typify_calibrate_levels(source.lod25_source, source.lod200_source, s_u, options,
+		group_by IS NOT NULL OR links IS NOT NULL, NULL, true));
 END $$;
 COMMENT ON FUNCTION typify_calibrate(regclass, regclass, double precision, name, typify_options, name, name, name, name,
-	regclass) IS
+	name, regclass) IS
 'Takes psi and exponent from two stored levels of detail, for the clusters that s_u and options really make (psi: paper, section on size; exponent: 2 ln(n25 / n200) / ln(m200 / m25), not below 0): rows of typify_calibration, whose options are ready to pass on. Derived with them, a layer has at m200 exactly the count and, to rounding, the mean area of LOD200, and at m25 the count of LOD25. Without groups one row. With group_by (a column of lod25, of any type) or links (a table or view with lod25_id and lod200_id, as typify_match returns; lod200_id is the group) a first row, overall, for all groups together, then one for each group by the bytes of its name, the NULL group last; calibrated is false where a group has no object of LOD200 or more of them than buildings: it takes the exponent and psi of all. The mean_placeholder_area of all is that of the placeholders of all groups.
-Objects of LOD200 belong to the group in their column lod200_group_by (default: the column that group_by names, if LOD200 has it), without one to that of the building nearest to their centroid (of the smallest id among equally near ones); with links, lod200_group_by names their key (default: as id_column).
+Objects of LOD200 belong to the group in their column lod200_group_by (default: the column that group_by names, if LOD200 has it), without one to that of the building whose centre is nearest to theirs (see typify_centre; of equally near ones that with the smallest id); with links, to the group of their lod200_id_column.
 What options set is kept: exponent, psi, count; with count, count_rule => ''black_white'' or min_distance alone no exponent is calibrated, since these say how many. With black_white the counts follow from the psi that is calibrated. With area_statistic => ''sum'' no psi is calibrated, since it has no effect. No psi is calibrated from a LOD200 without areas (points, lines).
-The tables are read, never written; id_column (smallint, integer, bigint; different for each building) and the two geometry columns may be named otherwise. NULL and EMPTY geometries do not count. No row when lod25 has no building.
-Errors: 42P01, 42809, 42703, 42804 for a table or column that is not there or of another kind; 22004 for NULL arguments; 22023 for two SRIDs, a geographic one, ids that occur twice (of lod200 with links only), a lod200 without objects or with more of them than lod25, links together with group_by, lod200_group_by without group_by; others as of typify_placeholders.';
+The tables are read, never written; id_column and, asked for with links only, lod200_id_column (smallint, integer, bigint; different for each row) and the two geometry columns may be named otherwise. NULL and EMPTY geometries do not count. No row when lod25 has no building.
+Errors: 42P01, 42809, 42703, 42804 for a table or column that is not there or of another kind; 22004 for arguments and ids that are NULL; 22023 for two SRIDs, a geographic one, ids that occur twice, a lod200 without objects or with more of them than lod25, links together with group_by, lod200_group_by without group_by; others as of typify_placeholders.';

@@ -90,21 +90,66 @@ END $$;
 COMMENT ON FUNCTION typify_wanted(text, text[], geometry) IS
 'The groups among the given ones that have a building whose bounding box meets that of box; NULL for all groups, when neither is given.';
 
-CREATE FUNCTION typify_derive(
-	lod25 regclass,
-	lod200 regclass,
-	scale double precision,
-	s_u double precision DEFAULT 0,
-	group_by name DEFAULT NULL,
-	box geometry DEFAULT NULL,
-	options typify_options DEFAULT NULL,
-	allocation text DEFAULT 'each_group',
-	id_column name DEFAULT 'id',
-	geom_column name DEFAULT 'geom',
-	lod200_geom_column name DEFAULT 'geom',
-	lod200_group_by name DEFAULT NULL,
-	links regclass DEFAULT NULL,
-	groups text[] DEFAULT NULL)
+CREATE FUNCTION typify_plan(lod25 regclass, lod200 regclass, scale double precision, s_u double precision,
+	group_by name, box geometry, options typify_options, allocation text, id_column name, geom_column name,
+	lod200_id_column name, lod200_geom_column name, lod200_group_by name, links regclass, groups text[],
+	OUT source text, OUT levels typify_calibration[], OUT hidden text[])
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+SET jit = off
+SET datestyle = ISO
+SET intervalstyle = postgres
+SET timezone = 'UTC'
+SET bytea_output = hex
+SET extra_float_digits = 1
+AS $$
+DECLARE
+	grouped boolean := group_by IS NOT NULL OR links IS NOT NULL;
+	whole record;
+	wanted text[];
+	keys text[];
+	allotted bigint[];
+BEGIN
+	IF allocation IS NULL THEN
+		PERFORM typify_refuse_null('allocation');
+	ELSIF allocation NOT IN ('each_group', 'total') THEN
+		RAISE EXCEPTION 'allocation is "%", it must be each_group or total', allocation
+			USING ERRCODE = '22023', HINT = 'each_group gives every group its own count, total divides that of all.';
+	END IF;
+	PERFORM typify_check_parameters(scale, s_u, options);
+	whole := typify_levels(lod25, lod200, id_column, geom_column, lod200_id_column, lod200_geom_column, group_by,
+		lod200_group_by, links, false);
+	PERFORM typify_check_same_srid('lod25', whole.srid, 'box', ST_SRID(box));
+
+	wanted := typify_wanted(whole.lod25_source, groups, box);
+	keys := typify_group_keys(wanted);
+	source := typify_lod25_source(lod25, id_column, geom_column, group_by, links, wanted);
+	IF lod200 IS NOT NULL THEN
+		levels := typify_calibrate_levels(whole.lod25_source, whole.lod200_source, s_u, options, grouped, wanted, false);
+	ELSE
+		levels := typify_census(CASE allocation WHEN 'total' THEN whole.lod25_source ELSE source END, options);
+	END IF;
+	IF NOT grouped THEN
+		levels := levels[1:1];
+		levels[1].overall := false;
+	ELSIF allocation = 'total' THEN
+		allotted := 0 || typify_allot(levels, scale);
+	END IF;
+	SELECT array_agg(ROW(l.grp, l.n25, l.n200, l.mean_area25, l.mean_placeholder_area, l.mean_area200, l.exponent,
+			l.psi, typify_options_with(l.options, (l.options).exponent, (l.options).psi,
+				CASE WHEN allotted IS NULL THEN (l.options).count ELSE greatest(allotted[ordinality], 1) END),
+			l.calibrated, l.overall)::typify_calibration ORDER BY ordinality),
+		array_agg(typify_group_key(l.grp)) FILTER (WHERE allotted[ordinality] = 0)
+	INTO levels, hidden
+	FROM unnest(levels) WITH ORDINALITY AS l
+	WHERE NOT l.overall AND l.n25 > 0 AND (wanted IS NULL OR typify_group_key(l.grp) = ANY (keys));
+END $$;
+COMMENT ON FUNCTION typify_plan(regclass, regclass, double precision, double precision, name, geometry, typify_options,
+	text, name, name, name, name, name, regclass, text[]) IS
+'What typify_derive, whose arguments these are, does before it draws. source: of the buildings, at least those of the groups asked for; levels: these groups, by the bytes of their names, the NULL group last, each with its options, NULL when there is none; hidden: the keys (typify_group_key) of those that get no placeholder, and are one row that is not drawn.';
+
+CREATE FUNCTION typify_draw(source text, scale double precision, s_u double precision, levels typify_calibration[],
+	hidden text[], grouped boolean)
 RETURNS TABLE (
 	id bigint,
 	geom geometry,
@@ -124,71 +169,59 @@ SET timezone = 'UTC'
 SET bytea_output = hex
 SET extra_float_digits = 1
 AS $$
-#variable_conflict use_column
-DECLARE
-	grouped boolean := group_by IS NOT NULL OR links IS NOT NULL;
-	source text := typify_lod25_source(lod25, id_column, geom_column, group_by, links);
-	lod200_source text;
-	wanted text[];
-	wanted_source text;
-	keys text[];
-	levels typify_calibration[];
-	allotted bigint[];
-	given typify_calibration[];
 BEGIN
-	IF allocation IS NULL THEN
-		PERFORM typify_refuse_null('allocation');
-	ELSIF allocation NOT IN ('each_group', 'total') THEN
-		RAISE EXCEPTION 'allocation is "%", it must be each_group or total', allocation
-			USING ERRCODE = '22023', HINT = 'each_group gives every group its own count, total divides that of all.';
-	END IF;
-	PERFORM typify_check_parameters(scale, s_u, options);
-	IF lod200 IS NOT NULL THEN
-		lod200_source := typify_lod200_groups(source, lod25, lod200, id_column, geom_column, lod200_geom_column,
-			group_by, lod200_group_by, links);
-	END IF;
-	PERFORM typify_check_srids(source, lod25, geom_column, lod200, lod200_geom_column, box);
-	PERFORM typify_check_ids(source, lod25, id_column, links);
-
-	wanted := typify_wanted(source, groups, box);
-	keys := typify_group_keys(wanted);
-	wanted_source := typify_lod25_source(lod25, id_column, geom_column, group_by, links, wanted);
-	IF lod200 IS NOT NULL THEN
-		levels := typify_calibrate_levels(source, lod200_source, s_u, options, grouped, wanted, false);
-		PERFORM typify_check_links(levels, links);
-	ELSE
-		levels := typify_census(CASE allocation WHEN 'total' THEN source ELSE wanted_source END, options);
-	END IF;
-	IF NOT grouped THEN
-		levels := levels[1:1];
-		levels[1].overall := false;
-	ELSIF allocation = 'total' THEN
-		allotted := 0 || typify_allot(levels, scale);
-	END IF;
-	SELECT array_agg(ROW(l.grp, l.n25, l.n200, l.mean_area25, l.mean_placeholder_area, l.mean_area200, l.exponent,
-			l.psi, typify_options_with(l.options, (l.options).exponent, (l.options).psi,
-				CASE WHEN allotted IS NULL THEN (l.options).count ELSE greatest(allotted[ordinality], 1) END),
-			l.calibrated, l.overall)::typify_calibration ORDER BY ordinality),
-		array_agg(allotted[ordinality] ORDER BY ordinality)
-	INTO given, allotted
-	FROM unnest(levels) WITH ORDINALITY AS l
-	WHERE NOT l.overall AND l.n25 > 0 AND (wanted IS NULL OR typify_group_key(l.grp) = ANY (keys));
-	IF given IS NULL THEN
+	IF levels IS NULL THEN
 		RETURN;
 	END IF;
 	RETURN QUERY
-		SELECT p.id, CASE WHEN hidden THEN NULL ELSE p.geom END, p.member_count, p.members,
-			CASE WHEN hidden THEN 0 ELSE p.area END, CASE WHEN hidden THEN 0 ELSE p.width END,
-			CASE WHEN hidden THEN 0 ELSE p.length END, p.orientation, g.grp
-		FROM typify_each_group(wanted_source, scale, s_u, given, grouped) AS g
-		LEFT JOIN (SELECT typify_group_key(n.grp) AS key, true AS none
-				   FROM unnest(given) WITH ORDINALITY AS n WHERE allotted[ordinality] = 0) AS n
-			ON n.key = typify_group_key(g.grp)
+		SELECT p.id, CASE WHEN shown THEN p.geom END, p.member_count, p.members, CASE WHEN shown THEN p.area ELSE 0 END,
+			CASE WHEN shown THEN p.width ELSE 0 END, CASE WHEN shown THEN p.length ELSE 0 END, p.orientation, g.grp
+		FROM typify_each_group(source, scale, s_u, levels, grouped) AS g
 		CROSS JOIN LATERAL unnest(g.list) AS p
-		CROSS JOIN LATERAL (SELECT coalesce(n.none, false) AS hidden) AS shown;
+		CROSS JOIN LATERAL (SELECT (typify_group_key(g.grp) = ANY (hidden)) IS NOT TRUE AS shown) AS either;
+END $$;
+COMMENT ON FUNCTION typify_draw(text, double precision, double precision, typify_calibration[], text[], boolean) IS
+'The rows of typify_derive, as typify_plan says. grouped: false takes everything as one group.';
+
+CREATE FUNCTION typify_derive(
+	lod25 regclass,
+	lod200 regclass,
+	scale double precision,
+	s_u double precision DEFAULT 0,
+	group_by name DEFAULT NULL,
+	box geometry DEFAULT NULL,
+	options typify_options DEFAULT NULL,
+	allocation text DEFAULT 'each_group',
+	id_column name DEFAULT 'id',
+	geom_column name DEFAULT 'geom',
+	lod200_id_column name DEFAULT 'id',
+	lod200_geom_column name DEFAULT 'geom',
+	lod200_group_by name DEFAULT NULL,
+	links regclass DEFAULT NULL,
+	groups text[] DEFAULT NULL)
+RETURNS TABLE (
+	id bigint,
+	geom geometry,
+	member_count integer,
+	members bigint[],
+	area double precision,
+	width double precision,
+	length double precision,
+	orientation double precision,
+	grp text)
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	plan record;
+BEGIN
+	plan := typify_plan(lod25, lod200, scale, s_u, group_by, box, options, allocation, id_column, geom_column,
+		lod200_id_column, lod200_geom_column, lod200_group_by, links, groups);
+	RETURN QUERY SELECT * FROM typify_draw(plan.source, scale, s_u, plan.levels, plan.hidden,
+		group_by IS NOT NULL OR links IS NOT NULL);
 END $$;
 COMMENT ON FUNCTION typify_derive(regclass, regclass, double precision, double precision, name, geometry,
-	typify_options, text, name, name, name, name, regclass, text[]) IS
+	typify_options, text, name, name, name, name, name, regclass, text[]) IS
 'The placeholders of a table of buildings at any scale (its denominator, at least source_scale), calibrated as typify_calibrate does with lod200, the stored coarse level, or, where lod200 is NULL, with options as they are. Rows in no particular order: the fields of typify_placeholder (id: of the representative, and so a key of the layer), and grp, the group as text.
 group_by: a column of lod25, of any type; each of its values is typified by itself, NULL too. links: a table or view with lod25_id and lod200_id, as typify_match returns, instead: lod200_id is the group, and buildings without a link are the NULL group; at m200 each group with an object of lod200 is one placeholder of its area.
 allocation: each_group gives every group its own count, as the aggregate does. total divides the count of the whole table at the scale by largest remainders, in proportion to what the law leaves of each group in real numbers, equal remainders by the bytes of the group''s name. A group may get none: it is one row with geom NULL, area, width and length 0, all its buildings as members.

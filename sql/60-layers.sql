@@ -53,7 +53,7 @@ COMMENT ON FUNCTION typify_layer_name(name, text) IS
 
 CREATE FUNCTION typify_layer_definition(lod25 regclass, lod200 regclass, scale double precision, s_u double precision,
 	group_by name, options typify_options, allocation text, id_column name, geom_column name,
-	lod200_geom_column name, lod200_group_by name, links regclass)
+	lod200_id_column name, lod200_geom_column name, lod200_group_by name, links regclass)
 RETURNS json
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
@@ -64,7 +64,8 @@ DECLARE
 BEGIN
 	argument := CASE WHEN scale IS NULL THEN 'scale' WHEN s_u IS NULL THEN 's_u'
 		WHEN allocation IS NULL THEN 'allocation' WHEN id_column IS NULL THEN 'id_column'
-		WHEN geom_column IS NULL THEN 'geom_column' WHEN lod200_geom_column IS NULL THEN 'lod200_geom_column' END;
+		WHEN geom_column IS NULL THEN 'geom_column' WHEN lod200_id_column IS NULL THEN 'lod200_id_column'
+		WHEN lod200_geom_column IS NULL THEN 'lod200_geom_column' END;
 	IF argument IS NOT NULL THEN
 		PERFORM typify_refuse_null(argument);
 	END IF;
@@ -74,14 +75,14 @@ BEGIN
 		'lod200', CASE WHEN lod200 IS NOT NULL THEN typify_table_name(lod200, 'lod200') END,
 		'scale', scale, 's_u', s_u, 'group_by', group_by, 'allocation', allocation,
 		'options', jsonb_strip_nulls(to_jsonb(options) || jsonb_build_object('barriers', (options).barriers::text)),
-		'id_column', id_column, 'geom_column', geom_column, 'lod200_geom_column', lod200_geom_column,
-		'lod200_group_by', lod200_group_by,
+		'id_column', id_column, 'geom_column', geom_column, 'lod200_id_column', lod200_id_column,
+		'lod200_geom_column', lod200_geom_column, 'lod200_group_by', lod200_group_by,
 		'links', CASE WHEN links IS NOT NULL THEN typify_table_name(links, 'links') END);
 END
 $$;
 
 COMMENT ON FUNCTION typify_layer_definition(regclass, regclass, double precision, double precision, name,
-	typify_options, text, name, name, name, name, regclass) IS
+	typify_options, text, name, name, name, name, name, regclass) IS
 'How a layer is derived, as its comment says it: a JSON object of the version of typify, the arguments of typify_derive by their names (relations with schema) and, among options, those that are set. Errors: 22004 for a NULL where a value is needed; those of typify_table_name.';
 
 CREATE FUNCTION typify_layer_comment(relation oid) RETURNS jsonb
@@ -121,7 +122,7 @@ $$;
 COMMENT ON FUNCTION typify_layer(regclass) IS
 'How a layer is derived, as its comment says (see typify_layer_definition); "finished": false marks a table that typify_build_scale has not completed. Errors: 22004 for NULL; 42809 for what is no layer.';
 
-CREATE FUNCTION typify_layer_call(definition jsonb, function text, groups text DEFAULT '') RETURNS text
+CREATE FUNCTION typify_layer_call(definition jsonb, function text, groups text DEFAULT 'NULL') RETURNS text
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT AS
 $$
@@ -140,18 +141,18 @@ BEGIN
 		SELECT format('typify_options(%s)', string_agg(format('%I => %L', key, value), ', ' ORDER BY key))
 		INTO options FROM jsonb_each_text(definition->'options');
 	END IF;
-	RETURN format('%s(lod25 => %L::regclass, lod200 => %L::regclass, s_u => %L, group_by => %L, options => %s, '
-			'id_column => %L, geom_column => %L, lod200_geom_column => %L, lod200_group_by => %L, links => %L::regclass',
-			function, definition->>'lod25', definition->>'lod200', definition->>'s_u', definition->>'group_by', options,
-			definition->>'id_column', definition->>'geom_column', definition->>'lod200_geom_column',
-			definition->>'lod200_group_by', definition->>'links')
-		|| CASE function WHEN 'typify_derive' THEN format(', scale => %L, allocation => %L%s)',
-			definition->>'scale', definition->>'allocation', groups) ELSE ')' END;
+	RETURN format('%s(lod25 => %L::regclass, lod200 => %L::regclass, scale => %L, s_u => %L, group_by => %L, box => NULL, '
+		'options => %s, allocation => %L, id_column => %L, geom_column => %L, lod200_id_column => %L, '
+		'lod200_geom_column => %L, lod200_group_by => %L, links => %L::regclass, groups => %s)',
+		function, definition->>'lod25', definition->>'lod200', definition->>'scale', definition->>'s_u',
+		definition->>'group_by', options, definition->>'allocation', definition->>'id_column',
+		definition->>'geom_column', definition->>'lod200_id_column', definition->>'lod200_geom_column',
+		definition->>'lod200_group_by', definition->>'links', groups);
 END
 $$;
 
 COMMENT ON FUNCTION typify_layer_call(jsonb, text, text) IS
-'SQL that calls typify_derive or typify_calibrate as the definition of a layer says; groups: a further argument of typify_derive. Options are written as a call of typify_options with those that are set, so that the definition of a materialized view outlives new options. Error 42P01 when a table from which the layer is derived is there no more.';
+'SQL that calls typify_derive, or typify_plan, which has the same arguments, as the definition of a layer says; groups: SQL for the argument of that name. Options are written as a call of typify_options with those that are set, so that the definition of a materialized view outlives new options. Error 42P01 when a table from which the layer is derived is there no more.';
 
 CREATE FUNCTION typify_layer_geometry(relation regclass, column_name name) RETURNS text
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
@@ -249,14 +250,15 @@ SET extra_float_digits = 1 AS
 $$
 DECLARE
 	shares jsonb;
+	levels record;
 BEGIN
-	EXECUTE 'SELECT jsonb_agg(jsonb_build_array(grp, number, area) ORDER BY grp COLLATE "C") FROM ('
-		'SELECT grp, count(*) AS number, sum(ST_Area(geom)::numeric) AS area FROM '
-		|| typify_lod200_groups(typify_layer_source(definition), (definition->>'lod25')::regclass,
-			(definition->>'lod200')::regclass, (definition->>'id_column')::name, (definition->>'geom_column')::name,
-			(definition->>'lod200_geom_column')::name, (definition->>'group_by')::name,
-			(definition->>'lod200_group_by')::name, (definition->>'links')::regclass)
-		|| ' AS lod200 GROUP BY grp) AS share' INTO shares;
+	levels := typify_levels((definition->>'lod25')::regclass, (definition->>'lod200')::regclass,
+		(definition->>'id_column')::name, (definition->>'geom_column')::name, (definition->>'lod200_id_column')::name,
+		(definition->>'lod200_geom_column')::name, (definition->>'group_by')::name,
+		(definition->>'lod200_group_by')::name, (definition->>'links')::regclass, false);
+	EXECUTE format('SELECT jsonb_agg(jsonb_build_array(grp, number, area) ORDER BY grp COLLATE "C") FROM ('
+		'SELECT grp, count(*) AS number, sum(ST_Area(geom)::numeric) AS area FROM %s AS lod200 GROUP BY grp) AS share',
+		levels.lod200_source) INTO shares;
 	RETURN coalesce(shares, '[]');
 END
 $$;
@@ -298,14 +300,14 @@ END
 $$;
 
 COMMENT ON FUNCTION typify_layer_keep_shares(regclass, jsonb) IS
-'Writes down the shares of LOD200 with which the groups of a table layer were derived, as {"lod200": shares}, and while it is being built their calibration, "calibration".';
+'Writes down the shares of LOD200 with which the groups of a table layer were derived, as {"lod200": shares}, and while it is being built its plan (see typify_layer_begin). NULL: nothing is kept.';
 
 CREATE FUNCTION typify_layer_derive_all(layer regclass, definition jsonb) RETURNS void
 LANGUAGE plpgsql
 SET search_path FROM CURRENT AS
 $$
 BEGIN
-	PERFORM typify_layer_replace(layer, NULL, typify_layer_call(definition, 'typify_derive', ', groups => $1'));
+	PERFORM typify_layer_replace(layer, NULL, typify_layer_call(definition, 'typify_derive', '$1'));
 	PERFORM typify_layer_keep_shares(layer, CASE WHEN typify_layer_is_calibrated(definition)
 		THEN jsonb_build_object('lod200', typify_layer_shares(definition)) END);
 	PERFORM typify_layer_finish(layer);
@@ -396,6 +398,7 @@ CREATE FUNCTION typify_create_scale(
 	allocation text DEFAULT 'each_group',
 	id_column name DEFAULT 'id',
 	geom_column name DEFAULT 'geom',
+	lod200_id_column name DEFAULT 'id',
 	lod200_geom_column name DEFAULT 'geom',
 	lod200_group_by name DEFAULT NULL,
 	links regclass DEFAULT NULL)
@@ -403,11 +406,12 @@ RETURNS regclass
 LANGUAGE sql
 BEGIN ATOMIC
 	SELECT typify_layer_create(current_schema(), name, kind, typify_layer_definition(lod25, lod200, scale, s_u,
-		group_by, options, allocation, id_column, geom_column, lod200_geom_column, lod200_group_by, links));
+		group_by, options, allocation, id_column, geom_column, lod200_id_column, lod200_geom_column, lod200_group_by,
+		links));
 END;
 
 COMMENT ON FUNCTION typify_create_scale(text, regclass, regclass, double precision, double precision, name, text,
-	typify_options, text, name, name, name, name, regclass) IS
+	typify_options, text, name, name, name, name, name, regclass) IS
 'Creates a layer: the placeholders of typify_derive at one scale, stored, and returns it. name is written as in SQL, with or without a schema; kind is ''materialized view'' or ''table''; all other arguments are those of typify_derive. The layer has its columns, a unique index on id (the id of the representative, which does not change when buildings elsewhere do), geom of type geometry(Polygon, SRID) with a spatial index, for tables an index on grp, and a JSON comment that says how it was derived. It is dropped by DROP. Errors: 42P07 when the name is taken; 42602, 42622, 3F000 for a name that is none, is too long or has a schema that is missing; 22023 for another kind; 22004 for a NULL where a value is needed; 0A000 for a materialized view of a temporary table; those of typify_derive.';
 
 CREATE FUNCTION typify_refresh_scale(name regclass, concurrently boolean DEFAULT false) RETURNS void
@@ -476,161 +480,157 @@ BEGIN
 		-- nothing is taken from LOD200, so it need not be read
 		definition := definition || '{"lod200": null, "lod200_group_by": null}';
 	END IF;
-	RETURN typify_layer_replace(name, groups, typify_layer_call(definition, 'typify_derive', ', groups => $1'));
+	RETURN typify_layer_replace(name, groups, typify_layer_call(definition, 'typify_derive', '$1'));
 END
 $$;
 
 COMMENT ON FUNCTION typify_refresh_groups(regclass, text[]) IS
 'Derives groups of a table layer anew and returns the number of rows written. groups: those in which buildings were added, changed, moved or removed, as text (a NULL element is the NULL group); a group that is no longer there loses its rows. Afterwards the layer has the rows that deriving it anew would give: groups whose calibration moved with the change are refreshed as well, that is, all that use the overall values, and those whose LOD200 objects changed. Where options give both exponent and psi, or without LOD200, nothing is calibrated and only the groups named are touched. Errors: 42809 for what is no layer or is a materialized view; 0A000 for a layer whose allocation is total; 55000 for one that typify_build_scale has not finished; 23505 when a building that came from a group that is not named represents a placeholder there; 42P01 when a table from which it is derived is there no more; 22004 for NULL.';
 
-CREATE FUNCTION typify_layer_calibration(definition jsonb) RETURNS jsonb
+CREATE FUNCTION typify_layer_state(definition jsonb) RETURNS bigint
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+SET jit = off
+SET datestyle = ISO
+SET intervalstyle = postgres
+SET timezone = 'UTC'
+SET bytea_output = hex
+SET extra_float_digits = 1 AS
+$$
+DECLARE
+	state bigint;
+BEGIN
+	EXECUTE format('SELECT sum(hash_record(b)) FROM %s AS b', typify_layer_source(definition)) INTO state;
+	RETURN coalesce(state, 0);
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_state(jsonb) IS
+'A number that tells whether the buildings from which a layer is derived are the same as before: the sum of the hashes of their ids, geometries and groups.';
+
+CREATE FUNCTION typify_layer_plan(definition jsonb) RETURNS jsonb
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
 SET extra_float_digits = 1 AS
 $$
 DECLARE
-	calibration jsonb;
+	plan jsonb;
 BEGIN
-	EXECUTE 'SELECT jsonb_build_object(
-			''overall'', jsonb_agg(jsonb_build_array((options).exponent, (options).psi)) FILTER (WHERE overall)->0,
-			''groups'', coalesce(jsonb_agg(jsonb_build_array(grp, (options).exponent, (options).psi))
-				FILTER (WHERE calibrated AND NOT overall), ''[]''))
-		FROM ' || typify_layer_call(definition, 'typify_calibrate') INTO calibration;
-	RETURN calibration;
+	EXECUTE format('SELECT coalesce(jsonb_agg(jsonb_build_array(l.grp, (l.options).exponent, (l.options).psi, '
+			'(l.options).count, typify_group_key(l.grp) = ANY (hidden)) ORDER BY place), ''[]'') '
+		'FROM %s AS plan, unnest(levels) WITH ORDINALITY AS l (grp, n25, n200, mean_area25, mean_placeholder_area, '
+			'mean_area200, exponent, psi, options, calibrated, overall, place)',
+		typify_layer_call(definition, 'typify_plan')) INTO plan;
+	RETURN plan;
 END
 $$;
 
-COMMENT ON FUNCTION typify_layer_calibration(jsonb) IS
-'To what the groups of a layer are calibrated now: {"overall": [exponent, psi], "groups": [[grp, exponent, psi], ...]}; a group that is not listed has the overall values.';
+COMMENT ON FUNCTION typify_layer_plan(jsonb) IS
+'What typify_plan says of the groups of a layer: a JSON array of [grp, exponent, psi, count, hidden], in its order, hidden being true or null.';
 
-CREATE FUNCTION typify_layer_begin(caller_schema name, name text, definition json, batch integer) RETURNS regclass
+CREATE FUNCTION typify_layer_begin(caller_schema name, name text, definition json, batch integer,
+	OUT layer regclass, OUT groups integer)
 LANGUAGE plpgsql
 SET search_path FROM CURRENT AS
 $$
 DECLARE
 	layer_name text := typify_layer_name(caller_schema, name);
-	layer regclass := to_regclass(layer_name);
-	there jsonb := typify_layer_comment(layer);
+	there jsonb;
+	kept jsonb;
+	current jsonb;
 BEGIN
+	layer := to_regclass(layer_name);
+	IF typify_layer_comment(layer)->'finished' = 'false' THEN
+		-- two calls that build the same layer at the same time take turns
+		EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
+		there := typify_layer_comment(layer);
+		kept := typify_layer_comment(typify_layer_shares_index(layer));
+	END IF;
 	IF batch IS NULL THEN
 		PERFORM typify_refuse_null('batch');
 	ELSIF batch < 1 THEN
 		RAISE EXCEPTION 'batch is %, it must be at least 1', batch USING ERRCODE = 'invalid_parameter_value',
 			HINT = 'So many groups are derived between two commits: leave it out for 1000.';
-	END IF;
-	IF layer IS NOT NULL THEN
-		IF there->'finished' = 'false' AND there - 'finished' - 'typify' = definition::jsonb - 'typify' THEN
-			RETURN layer;
-		END IF;
+	ELSIF layer IS NOT NULL AND (there->'finished' = 'false'
+			AND there - 'finished' - 'typify' = definition::jsonb - 'typify') IS NOT TRUE THEN
 		RAISE EXCEPTION '% exists already', layer_name USING ERRCODE = 'duplicate_table',
 			HINT = CASE WHEN there->'finished' = 'false'
 				THEN 'It was begun with other arguments: call with those to go on, or drop it.'
 				ELSE 'Drop it first or choose another name; typify_refresh_scale derives a layer anew.' END;
+	ELSIF layer IS NULL THEN
+		SELECT json_object_agg(key, value) INTO definition
+		FROM (SELECT key, value FROM json_each(definition) UNION ALL SELECT 'finished', 'false') AS pair;
+		layer := typify_layer_create_table(layer_name, definition,
+			typify_layer_geometry((definition->>'lod25')::regclass, (definition->>'geom_column')::name));
 	END IF;
-	SELECT json_object_agg(key, value) INTO definition
-	FROM (SELECT key, value FROM json_each(definition) UNION ALL SELECT 'finished', 'false') AS pair;
-	layer := typify_layer_create_table(layer_name, definition,
-		typify_layer_geometry((definition->>'lod25')::regclass, (definition->>'geom_column')::name));
-	IF typify_layer_is_calibrated(definition::jsonb) THEN
-		PERFORM typify_layer_keep_shares(layer, jsonb_build_object('lod200', typify_layer_shares(definition::jsonb),
-			'calibration', typify_layer_calibration(definition::jsonb)));
+	current := jsonb_build_object('state', typify_layer_state(definition::jsonb))
+		|| CASE WHEN typify_layer_is_calibrated(definition::jsonb)
+			THEN jsonb_build_object('lod200', typify_layer_shares(definition::jsonb)) ELSE '{}' END;
+	IF kept IS NULL OR kept - 'plan' <> current THEN
+		IF there IS NOT NULL THEN
+			RAISE NOTICE 'the tables are not what they were when % was begun: it is begun anew', layer_name;
+			EXECUTE format('DELETE FROM %s', layer);
+		END IF;
+		kept := current || jsonb_build_object('plan', typify_layer_plan(definition::jsonb));
+		PERFORM typify_layer_keep_shares(layer, kept);
 	END IF;
-	RETURN layer;
+	groups := jsonb_array_length(kept->'plan');
 END
 $$;
 
 COMMENT ON FUNCTION typify_layer_begin(name, text, json, integer) IS
-'The table that typify_build_scale fills: made now with "finished": false in its comment, or the one that an earlier call with the same arguments left unfinished. Error 42P07 for any other relation of that name.';
+'The table that typify_build_scale fills, and how many groups it will have. It is made now, with "finished": false in its comment, or is the one that an earlier call with the same arguments left unfinished. What all batches go by is kept in the comment of its index on grp: "plan" (see typify_layer_plan), and from what that was made, "state" (typify_layer_state) and "lod200" (typify_layer_shares). Where these are no longer the same, the table is emptied and planned anew. Error 42P07 for any other relation of that name.';
 
-CREATE FUNCTION typify_layer_groups(layer regclass) RETURNS text[]
-LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
-SET search_path FROM CURRENT
-SET jit = off
-SET datestyle = ISO
-SET intervalstyle = postgres
-SET timezone = 'UTC'
-SET bytea_output = hex
-SET extra_float_digits = 1 AS
-$$
-DECLARE
-	definition jsonb := typify_layer(layer);
-	groups text[];
-BEGIN
-	EXECUTE format('SELECT array_agg(grp ORDER BY grp COLLATE "C") FROM (SELECT DISTINCT grp FROM %s AS b) AS g',
-		typify_layer_source(definition)) INTO groups;
-	RETURN coalesce(groups, '{}');
-END
-$$;
-
-COMMENT ON FUNCTION typify_layer_groups(regclass) IS
-'The groups of the buildings from which a layer is derived, sorted by their bytes, the NULL group last.';
-
-CREATE FUNCTION typify_layer_batch(layer regclass, groups text[]) RETURNS TABLE (id bigint, geom geometry,
-	member_count integer, members bigint[], area double precision, width double precision, length double precision,
-	orientation double precision, grp text)
-LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
-SET search_path FROM CURRENT
-SET jit = off
-SET datestyle = ISO
-SET intervalstyle = postgres
-SET timezone = 'UTC'
-SET bytea_output = hex
-SET extra_float_digits = 1 AS
-$$
-DECLARE
-	definition jsonb := typify_layer(layer);
-	calibration jsonb := typify_layer_comment(typify_layer_shares_index(layer))->'calibration';
-	base typify_options := jsonb_populate_record(NULL::typify_options, nullif(definition->'options', 'null'));
-	given typify_calibration[];
-BEGIN
-	SELECT array_agg(ROW(one.grp, NULL, NULL, NULL, NULL, NULL, NULL, NULL,
-		typify_options_with(base, (fit->>0)::float8, (fit->>1)::float8, base.count), NULL, NULL)::typify_calibration)
-	INTO given
-	FROM unnest(groups) AS one (grp)
-	LEFT JOIN (
-		SELECT typify_group_key(entry->>0) AS key, jsonb_build_array(entry->1, entry->2) AS own
-		FROM jsonb_array_elements(calibration->'groups') AS entry
-	) AS listed ON key = typify_group_key(one.grp)
-	CROSS JOIN LATERAL (SELECT coalesce(own, calibration->'overall') AS fit) AS fits;
-	RETURN QUERY
-	SELECT p.*, g.grp FROM typify_each_group(typify_layer_source(definition, groups), (definition->>'scale')::float8,
-		(definition->>'s_u')::float8, given, true) AS g, unnest(g.list) AS p;
-END
-$$;
-
-COMMENT ON FUNCTION typify_layer_batch(regclass, text[]) IS
-'The rows of some groups of a table that is being built, with the calibration found when it was begun: then it is not done again for every batch.';
-
-CREATE FUNCTION typify_layer_build(layer regclass, groups text[]) RETURNS void
+CREATE FUNCTION typify_layer_build(layer regclass, first integer, last integer) RETURNS void
 LANGUAGE plpgsql
-SET search_path FROM CURRENT AS
+SET search_path FROM CURRENT
+SET extra_float_digits = 1 AS
 $$
 DECLARE
-	definition jsonb := typify_layer(layer);
-	calibrated boolean := typify_layer_comment(typify_layer_shares_index(layer)) ? 'calibration';
+	definition jsonb;
+	plan jsonb;
+	base typify_options;
+	todo text[];
+	keys text[];
+	levels typify_calibration[];
+	hidden text[];
 BEGIN
 	-- two calls that build the same layer at the same time take turns, and neither repeats what the other did
 	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
-	EXECUTE format('SELECT array_agg(grp ORDER BY place) FROM unnest($1) WITH ORDINALITY AS todo (grp, place) '
+	definition := typify_layer(layer);
+	plan := typify_layer_comment(typify_layer_shares_index(layer))->'plan';
+	base := jsonb_populate_record(base, nullif(definition->'options', 'null'));
+	EXECUTE format('SELECT array_agg(grp) FROM (SELECT one->>0 AS grp '
+			'FROM jsonb_array_elements($1) WITH ORDINALITY AS one (one, place) WHERE place BETWEEN $2 AND $3) AS todo '
 		'WHERE CASE WHEN grp IS NULL THEN NOT EXISTS (SELECT FROM %1$s AS done WHERE done.grp IS NULL) '
-		'ELSE NOT EXISTS (SELECT FROM %1$s AS done WHERE done.grp = todo.grp) END', layer) INTO groups USING groups;
-	IF groups IS NOT NULL THEN
-		PERFORM typify_layer_replace(layer, groups, CASE WHEN calibrated AND definition->>'allocation' = 'each_group'
-			THEN format('typify_layer_batch(%s::regclass, $1)', layer::oid)
-			ELSE typify_layer_call(definition, 'typify_derive', ', groups => $1') END);
+		'ELSE NOT EXISTS (SELECT FROM %1$s AS done WHERE done.grp = todo.grp) END', layer)
+	INTO todo USING plan, first, last;
+	keys := typify_group_keys(todo);
+	SELECT array_agg(ROW(one->>0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, typify_options_with(base,
+			(one->>1)::float8, (one->>2)::float8, (one->>3)::bigint), NULL, NULL)::typify_calibration),
+		array_agg(typify_group_key(one->>0)) FILTER (WHERE (one->>4)::boolean)
+	INTO levels, hidden
+	FROM jsonb_array_elements(plan) AS one WHERE typify_group_key(one->>0) = ANY (keys);
+	IF levels IS NOT NULL THEN
+		PERFORM typify_layer_replace(layer, todo, format(
+			'typify_draw(%L, %L::float8, %L::float8, %L::typify_calibration[], %L::text[], %L::boolean)',
+			typify_layer_source(definition, todo), definition->>'scale', definition->>'s_u', levels, hidden,
+			definition->>'group_by' IS NOT NULL OR definition->>'links' IS NOT NULL));
 	END IF;
 END
 $$;
 
-COMMENT ON FUNCTION typify_layer_build(regclass, text[]) IS
-'One batch of typify_build_scale: derives those of the groups that have no rows yet.';
+COMMENT ON FUNCTION typify_layer_build(regclass, integer, integer) IS
+'One batch of typify_build_scale: derives those of the groups first to last of the plan that have no rows yet.';
 
 CREATE FUNCTION typify_layer_complete(layer regclass) RETURNS void
 LANGUAGE plpgsql
 SET search_path FROM CURRENT AS
 $$
 BEGIN
-	PERFORM typify_layer_keep_shares(layer, typify_layer_comment(typify_layer_shares_index(layer)) - 'calibration');
+	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
+	PERFORM typify_layer_keep_shares(layer,
+		nullif(typify_layer_comment(typify_layer_shares_index(layer)) - 'plan' - 'state', '{}'));
 	PERFORM typify_layer_finish(layer);
 END
 $$;
@@ -650,6 +650,7 @@ CREATE PROCEDURE typify_build_scale(
 	allocation text DEFAULT 'each_group',
 	id_column name DEFAULT 'id',
 	geom_column name DEFAULT 'geom',
+	lod200_id_column name DEFAULT 'id',
 	lod200_geom_column name DEFAULT 'geom',
 	lod200_group_by name DEFAULT NULL,
 	links regclass DEFAULT NULL,
@@ -659,19 +660,16 @@ $$
 DECLARE
 	typify text := extnamespace::regnamespace FROM pg_catalog.pg_extension WHERE extname = 'typify';
 	layer regclass;
-	groups text[];
 	number integer;
 	done integer := 0;
 BEGIN
-	EXECUTE format('SELECT %1$s.typify_layer_begin(current_schema(), $1, %1$s.typify_layer_definition($2, $3, $4, $5, $6, '
-		'$7, $8, $9, $10, $11, $12, $13), $14)', typify)
-	INTO layer USING name, lod25, lod200, scale, s_u, group_by, options, allocation, id_column, geom_column,
-		lod200_geom_column, lod200_group_by, links, batch;
-	EXECUTE format('SELECT %s.typify_layer_groups($1)', typify) INTO groups USING layer;
-	number := cardinality(groups);
+	EXECUTE format('SELECT * FROM %1$s.typify_layer_begin(current_schema(), $1, %1$s.typify_layer_definition($2, $3, $4, '
+		'$5, $6, $7, $8, $9, $10, $11, $12, $13, $14), $15)', typify)
+	INTO layer, number USING name, lod25, lod200, scale, s_u, group_by, options, allocation, id_column, geom_column,
+		lod200_id_column, lod200_geom_column, lod200_group_by, links, batch;
 	WHILE done < number LOOP
-		EXECUTE format('SELECT %s.typify_layer_build($1, $2)', typify)
-			USING layer, groups[done + 1 : least(done + batch::bigint, number)];
+		EXECUTE format('SELECT %s.typify_layer_build($1, $2, $3)', typify)
+			USING layer, done + 1, least(done + batch::bigint, number)::integer;
 		COMMIT;
 		done := least(done + batch::bigint, number);
 		RAISE NOTICE '% of % groups (% %%)', done, number, 100::bigint * done / number;
@@ -682,5 +680,5 @@ END
 $$;
 
 COMMENT ON PROCEDURE typify_build_scale(text, regclass, regclass, double precision, double precision, name,
-	typify_options, text, name, name, name, name, regclass, integer) IS
-'Creates the layer that typify_create_scale creates with kind => ''table'', group by group: batch groups at a time, a COMMIT after each, and a NOTICE that says how many are done. After a stop (cancelled, failed, connection lost) the table stays with what is done and "finished": false in its comment; calling with the same arguments goes on with the groups that have no rows yet. Calibration is done once, at the beginning. The buildings should not change until it is finished; if they did, typify_refresh_scale or typify_refresh_groups sets it right. With allocation => ''total'' the counts of all groups are found again for every batch: choose a large one. CALL it outside a transaction block (2D000 inside). Other errors: as of typify_create_scale; 22023 for a batch below 1.';
+	typify_options, text, name, name, name, name, name, regclass, integer) IS
+'Creates the layer that typify_create_scale creates with kind => ''table'', group by group: batch groups at a time, a COMMIT after each, and a NOTICE that says how many are done. After a stop (cancelled, failed, connection lost) the table stays with what is done and "finished": false in its comment; calling with the same arguments goes on with the groups that have no rows yet. Groups, counts and calibration are found once, at the beginning, so that it takes little longer than typify_create_scale. A call that goes on keeps to them, unless a building, its group, or what LOD200 has of a group is another than then: that is said (NOTICE), and the table is begun anew. Edits while a call runs are edits like any later: name their groups to typify_refresh_groups when it is finished. CALL it outside a transaction block (2D000 inside). Other errors: as of typify_create_scale; 22023 for a batch below 1.';

@@ -1,19 +1,5 @@
 -- 71-parts.sql: touching parts joined to buildings, so that parts do not count as houses
 
-CREATE FUNCTION typify_check_tolerance(tolerance double precision) RETURNS void
-LANGUAGE plpgsql IMMUTABLE PARALLEL SAFE
-SET search_path FROM CURRENT
-AS $$
-BEGIN
-	IF tolerance IS NULL OR NOT (tolerance >= 0 AND tolerance < 'Infinity') THEN
-		RAISE EXCEPTION 'tolerance is %, it must be a finite number of at least 0', coalesce(tolerance::text, 'NULL')
-			USING ERRCODE = CASE WHEN tolerance IS NULL THEN '22004' ELSE '22023' END,
-				HINT = 'Give a length in units of the SRID; 0 joins what touches.';
-	END IF;
-END $$;
-COMMENT ON FUNCTION typify_check_tolerance(double precision) IS
-'Refuses a tolerance that is NULL (22004), below 0 or not finite (22023)';
-
 -- Closing: out by half the tolerance and in again fills gaps, notches and holes up to it; mitres keep corners sharp.
 CREATE FUNCTION typify_join_parts(parts geometry[], tolerance double precision) RETURNS geometry
 LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE COST 1000
@@ -39,7 +25,7 @@ LANGUAGE plpgsql IMMUTABLE PARALLEL SAFE COST 100000 ROWS 1000
 SET search_path FROM CURRENT
 AS $$
 BEGIN
-	PERFORM typify_check_tolerance(tolerance);
+	PERFORM typify_check_length(tolerance, 'tolerance', 'Give a length in units of the SRID; 0 joins what touches.');
 	RETURN QUERY
 	WITH part AS (
 		SELECT n, CASE WHEN count(*) = 1 THEN (array_agg(piece.geom))[1] ELSE ST_Collect(piece.geom ORDER BY path) END AS geom
@@ -68,20 +54,22 @@ LANGUAGE plpgsql STABLE PARALLEL RESTRICTED COST 1000000 ROWS 10000
 SET search_path FROM CURRENT
 SET jit = off
 AS $$
+DECLARE
+	source text := typify_source(buildings, 'buildings', '', id_column, geom_column, true);
 BEGIN
-	PERFORM typify_check_tolerance(tolerance);
-	PERFORM typify_check_layer(buildings, 'buildings', id_column, geom_column);
+	PERFORM typify_check_length(tolerance, 'tolerance', 'Give a length in units of the SRID; 0 joins what touches.');
+	PERFORM typify_source_srid(source, buildings, geom_column, 'buildings'),
+		typify_check_ids(source, buildings, id_column, 'id_column');
 	RETURN QUERY EXECUTE format($query$
 WITH grouped AS (
 	SELECT id, geom, CASE WHEN dimension = 2
 		THEN ST_ClusterDBSCAN(geom, $1, 1) OVER (PARTITION BY dimension) END AS house
-	FROM (SELECT %2$I::bigint AS id, %3$I AS geom, ST_Dimension(%3$I) AS dimension FROM %1$s
-		  WHERE typify_centre(%3$I) IS NOT NULL) AS part
+	FROM (SELECT id, geom, ST_Dimension(geom) AS dimension FROM %s AS b WHERE typify_centre(geom) IS NOT NULL) AS part
 )
 SELECT (array_agg(id ORDER BY CASE ST_Dimension(geom) WHEN 2 THEN ST_Area(geom) END DESC, id))[1],
 	typify_join_parts(array_agg(geom ORDER BY id), $1), array_agg(id ORDER BY id)
 FROM grouped GROUP BY house, CASE WHEN house IS NULL THEN id END
-ORDER BY 1$query$, buildings, id_column, geom_column) USING tolerance;
+ORDER BY 1$query$, source) USING tolerance;
 END $$;
 COMMENT ON FUNCTION typify_dissolve_table(regclass, double precision, name, name) IS
 'typify_dissolve for a table or view of buildings: one row per joined building. id: of its largest part (of equals the smallest id), so that attributes can be joined on. geom: see typify_dissolve. parts: the ids of all its parts, ascending; over all rows each usable row of the table occurs exactly once, so that unnest(parts) is the map from part to building. Ordered by id. tolerance: in units of the SRID; 0 joins what touches. Errors as of typify_dissolve, and 42703, 42804, 42809 for columns and tables, 22004 for an id that is NULL, 22023 for ids that occur twice and for two SRIDs.';

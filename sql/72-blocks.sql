@@ -73,16 +73,18 @@ SET enable_nestloop = off
 SET jit = off
 AS $$
 DECLARE
-	srid integer := typify_check_layer(buildings, 'buildings', id_column, geom_column);
-	srid_of_lines integer := typify_check_layer(lines, 'lines', NULL, lines_geom_column);
+	source text := typify_source(buildings, 'buildings', '', id_column, geom_column, true);
+	lines_source text := typify_source(lines, 'lines', 'lines_', NULL, lines_geom_column, false);
+	srid integer := typify_source_srid(source, buildings, geom_column, 'buildings');
+	srid_of_lines integer := typify_source_srid(lines_source, lines, lines_geom_column, 'lines');
 	all_lines geometry;
 BEGIN
-	PERFORM typify_check_same_srid('buildings', srid, 'lines', srid_of_lines);
-	EXECUTE format('SELECT ST_Collect(ST_Force2D(%I)) FROM %s', lines_geom_column, lines) INTO all_lines;
+	PERFORM typify_check_same_srid('buildings', srid, 'lines', srid_of_lines),
+		typify_check_ids(source, buildings, id_column, 'id_column');
+	EXECUTE format('SELECT ST_Collect(ST_Force2D(geom)) FROM %s AS l', lines_source) INTO all_lines;
 	RETURN QUERY EXECUTE format($query$
 WITH building AS MATERIALIZED (
-	SELECT id, centre[0] AS x, centre[1] AS y
-	FROM (SELECT %2$I::bigint AS id, typify_centre(%3$I) AS centre FROM %1$s) AS b WHERE centre IS NOT NULL
+	SELECT id, centre[0] AS x, centre[1] AS y FROM (SELECT id, typify_centre(geom) AS centre FROM %s AS b) AS placed
 ), face AS (
 	SELECT number, geom, ST_XMin(geom) AS x0, ST_YMin(geom) AS y0, ST_XMax(geom) AS x1, ST_YMax(geom) AS y1
 	FROM typify_blocks($1) WITH ORDINALITY AS block (geom, number)
@@ -108,8 +110,8 @@ WITH building AS MATERIALIZED (
 	WHERE ST_Intersects(sized.geom, ST_SetSRID(ST_MakePoint(one.x, one.y), $2))
 	GROUP BY one.id
 )
-SELECT id, coalesce(number, 1) FROM building LEFT JOIN inside USING (id) ORDER BY id$query$,
-		buildings, id_column, geom_column) USING all_lines, coalesce(srid, 0);
+SELECT id, coalesce(number, 1) FROM building LEFT JOIN inside USING (id) ORDER BY id$query$, source)
+		USING all_lines, coalesce(srid, 0);
 END $$;
 COMMENT ON FUNCTION typify_assign_blocks(regclass, regclass, name, name, name) IS
 'The block of each building, ready to group by: rows id, block, ascending by id, one for each building with a usable geometry. buildings: a table or view with ids (id_column) and geometries (geom_column). lines: a table or view of road lines. The centroid decides (see typify_centre); on a border the smaller number, and any before the outside. Numbers are those of typify_blocks WITH ORDINALITY; 1 is the outside, where all that lies in no other block belongs, also when there is no line. UPDATE buildings SET block = a.block FROM typify_assign_blocks(''buildings'', ''roads'') AS a WHERE a.id = buildings.id writes them. Other lines may give all blocks other numbers. Errors: 42703, 42804, 42809 for columns and tables; 22004 for NULLs; 22023 for ids that occur twice, SRIDs that are two or geographic, and coordinates that are not finite; 0A000 for lines that are none.';

@@ -61,6 +61,10 @@ psql -qX -v ON_ERROR_STOP=1 -c "CREATE TABLE lod200 AS SELECT row_number() OVER 
 	ST_Buffer(ST_Centroid(ST_Collect(ST_Centroid(geom))), 35)::geometry AS geom
 	FROM buildings GROUP BY ST_SnapToGrid(ST_Centroid(geom), 140)"
 timed "links, one group" "CREATE TABLE links AS SELECT * FROM typify_match('buildings', 'lod200', 0.5)"
+timed "derived in blocks, calibrated" "CREATE TABLE derived AS
+	SELECT * FROM typify_derive('buildings', 'lod200', 75000, 0.5, 'block')"
+check "every building is in one placeholder" \
+	"SELECT count(*) = 122526 AND count(DISTINCT member) = 122526 FROM derived, unnest(members) AS member"
 timed "links, block by block" "CREATE TABLE block_links AS SELECT * FROM typify_match('buildings', 'lod200', 0.5, 'block')"
 for table in links block_links; do
 	check "$table: every building once, every object" "SELECT count(lod25_id) = 122526 AND count(DISTINCT lod25_id) = 122526

@@ -59,7 +59,7 @@ check "one group of a box" "SELECT min(grp), max(grp), sum(member_count) FROM TY
 	lod200 => LOD200, scale => 100000, group_by => 'Block \"b\"',
 	box => gis.ST_MakeEnvelope(900, 0, 1200, 300, 25832), COLUMNS)" "block 1|block 1|50"
 check "grouped by links" "SELECT count(*), count(DISTINCT grp) FROM TYPIFY.typify_derive(lod25 => LOD25,
-	lod200 => LOD200, scale => 200000, links => '\"Land''s\".\"my links\"', COLUMNS)" "4|4"
+	lod200 => LOD200, scale => 200000, links => '\"Land''s\".\"my links\"', lod200_id_column => 'the Id', COLUMNS)" "4|4"
 check "calibration" "SELECT count(*), bool_and(calibrated), sum(n200) FILTER (WHERE overall)
 	FROM TYPIFY.typify_calibrate(lod25 => LOD25, lod200 => LOD200, group_by => 'x.y', COLUMNS)" "5|t|24"
 check "a missing column is named as it is written" "SELECT TYPIFY.typify_derive(LOD25, NULL, 75000)" \

@@ -174,13 +174,38 @@ SELECT pg_temp.error_of('SELECT typify_create_scale(''stopped'', ''stopping'', '
 CALL typify_build_scale('stopped', 'stopping', 'lod200', 75000, 0.5, 'block', batch => 5);
 SELECT pg_temp.differing('stopped', 'TABLE layer75') AS differing, obj_description('stopped'::regclass)::jsonb ? 'finished' AS unfinished;
 SELECT pg_temp.error_of('CALL typify_build_scale(''stopped'', ''stopping'', ''lod200'', 75000, 0.5, ''block'')');
+-- stopped, and the tables change before it goes on: it begins anew, whatever changed
+DROP TABLE stopped;
+SET typify_test.stop = on;
+CALL typify_build_scale('stopped', 'stopping', 'lod200_without_block', 75000, 0.5, 'block', batch => 3);
+SET typify_test.stop = off;
+UPDATE lod25 SET geom = ST_Translate(geom, 1, 0) WHERE id = (SELECT min(id) FROM lod25);
+CALL typify_build_scale('stopped', 'stopping', 'lod200_without_block', 75000, 0.5, 'block');
+SELECT pg_temp.differing('stopped', 'SELECT * FROM typify_derive(''lod25'', ''lod200_without_block'', 75000, 0.5, ''block'')') AS differing;
+DROP TABLE stopped;
+SET typify_test.stop = on;
+CALL typify_build_scale('stopped', 'stopping', 'lod200', 700000, 0.5, 'block', allocation => 'total', batch => 3);
+SET typify_test.stop = off;
+UPDATE lod200 SET geom = ST_Expand(geom, 2) WHERE id = (SELECT max(id) FROM lod200);
+CALL typify_build_scale('stopped', 'stopping', 'lod200', 700000, 0.5, 'block', allocation => 'total', batch => 3);
+SELECT pg_temp.differing('stopped', 'SELECT * FROM typify_derive(''lod25'', ''lod200'', 700000, 0.5, ''block'', allocation => ''total'')') AS differing, count(*) FILTER (WHERE geom IS NULL) AS hidden FROM stopped;
+-- ... and goes on where the groups are the same, whatever the session's settings say of their names
+DROP TABLE stopped;
+CREATE VIEW stopping_by_day AS SELECT id, DATE '2024-01-31' + block * 30 AS day, geom FROM stopping;
+SET typify_test.stop = on;
+CALL typify_build_scale('stopped', 'stopping_by_day', NULL, 75000, 0.5, 'day', batch => 3);
+SET typify_test.stop = off;
+SET datestyle = 'German, DMY';
+CALL typify_build_scale('stopped', 'stopping_by_day', NULL, 75000, 0.5, 'day');
+RESET datestyle;
 -- a failure in the first batch leaves nothing; nor does a call inside a transaction block
+DROP TABLE stopped;
 CALL typify_build_scale('never', 'lod25', NULL, 20000, 0.5, 'block');
 SELECT pg_temp.error_of('CALL typify_build_scale(''never'', ''lod25'', NULL, 75000, 0.5, ''block'')');
 SELECT to_regclass('never') AS never;
 
 -- dropped by DROP, which takes the comment along; what a materialized view is derived from cannot be dropped under it
-DROP TABLE stopped;
+DROP TABLE built_plain;
 SELECT pg_temp.error_of('DROP TABLE lod200');
 
 -- a name is written as in SQL
