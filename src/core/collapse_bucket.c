@@ -20,8 +20,8 @@
 #endif
 #define OCTAVES 63 /* costs are below 2^30.5 cells * 2^31 */
 
-/* Walks side by side: more than the memory requests that a core has under way at a time (measured: 16 to 48). */
-#define ABREAST 24
+/* Walks side by side: more than the memory requests that a core has under way at a time (measured: 16 to 64). */
+#define ABREAST 48
 #define SLICE 512 /* vertices of a bucket whose keys are fetched side by side */
 #define STEPS 16  /* a walk goes no farther: most stars have 6 corners */
 
@@ -120,11 +120,11 @@ is_waiting(const ty_run *run, uint32_t v, uint32_t b)
 /* ---- fetching stars side by side ---- */
 
 /*
- * Brings the stars of count <= ABREAST vertices into the cache, with the triangles around them. Always inline: gcc
- * drops calls of a function that does nothing but prefetch.
+ * Brings the stars of count <= ABREAST vertices into the cache; for a collapse also what lies around them. Always
+ * inline: gcc drops calls of a function that does nothing but prefetch.
  */
 static inline __attribute__((always_inline)) void
-fetch_stars(const ty_run *run, const uint32_t *v, size_t count)
+fetch_stars(const ty_run *run, const uint32_t *v, size_t count, bool to_collapse)
 {
 	const ty_triangle *triangles = run->mesh.triangles;
 	uint32_t first[ABREAST], at[ABREAST], outer[ABREAST];
@@ -133,8 +133,8 @@ fetch_stars(const ty_run *run, const uint32_t *v, size_t count)
 	for (size_t i = 0; i < count; i++)
 	{
 		__builtin_prefetch(&run->vertex[v[i]]);
-		__builtin_prefetch(&run->rest[v[i]]);
-		__builtin_prefetch(&run->queue.key[v[i]]);
+		if (to_collapse)
+			__builtin_prefetch(&run->rest[v[i]]);
 	}
 	for (size_t i = 0; i < count; i++)
 	{
@@ -153,14 +153,18 @@ fetch_stars(const ty_run *run, const uint32_t *v, size_t count)
 		for (size_t i = 0; i < walks; i++)
 		{
 			uint32_t h = at[i], w = ty_target(&run->mesh, h);
-			uint32_t apex = ty_origin(&run->mesh, ty_previous_in_triangle(outer[i])); /* fetched one step ago */
 			uint32_t beyond = ty_opposite(&run->mesh, ty_next_in_triangle(h));
 
 			if (w != TY_GHOST)
 				__builtin_prefetch(&run->vertex[w]);
-			if (apex != TY_GHOST)
-				__builtin_prefetch(&run->vertex[apex]);
-			__builtin_prefetch(&triangles[ty_triangle_of(beyond)]);
+			if (to_collapse)
+			{
+				uint32_t apex = ty_origin(&run->mesh, ty_previous_in_triangle(outer[i])); /* fetched one step ago */
+
+				if (apex != TY_GHOST)
+					__builtin_prefetch(&run->vertex[apex]);
+				__builtin_prefetch(&triangles[ty_triangle_of(beyond)]);
+			}
 			h = ty_next_around(&run->mesh, h);
 			if (h == first[i])
 				continue;
@@ -185,20 +189,23 @@ typedef struct lookout
 static ty_status
 look_again(ty_run *run, lookout *looked)
 {
-	uint32_t other[ABREAST];
-	size_t others = 0;
+	uint32_t owner[ABREAST], other[ABREAST];
+	size_t near = 0;
 	ty_status status = TY_OK;
 
-	fetch_stars(run, looked->vertex, looked->count);
+	fetch_stars(run, looked->vertex, looked->count, false);
 	for (size_t i = 0; i < looked->count && status == TY_OK; i++)
 	{
 		ty_edge least = ty_least_edge(run, looked->vertex[i]);
 
 		status = ty_queue_settle(run, least);
-		if (least.other != TY_NONE && ty_is_near(&run->queue, least))
-			other[others++] = least.other;
+		if (least.other == TY_NONE || !ty_is_near(&run->queue, least))
+			continue;
+		owner[near] = least.owner;
+		other[near++] = least.other;
 	}
-	fetch_stars(run, other, others);
+	fetch_stars(run, owner, near, true);
+	fetch_stars(run, other, near, true);
 	looked->count = 0;
 	return status;
 }

@@ -46,7 +46,7 @@ key_of_cost(double cost)
 	int32_t bits;
 
 	memcpy(&bits, &rounded, sizeof bits);
-	return (double) rounded > cost ? bits - 1 : bits;
+	return bits - ((double) rounded > cost); /* no branch: it would be guessed wrong every other time */
 }
 
 /* ---- heap: 4-ary, the least on top ---- */
@@ -192,10 +192,13 @@ ty_least_edge(const ty_run *run, uint32_t v)
 
 		if (w != TY_GHOST)
 		{
-			ty_edge e = {edge_cost(run, v, w), v, w};
+			double cost = edge_cost(run, v, w);
+			bool less = cost < least.cost;
 
-			if (ty_before(e, least))
-				least = e;
+			if (cost == least.cost)
+				less = ty_before((ty_edge){cost, v, w}, least);
+			least.cost = less ? cost : least.cost;
+			least.other = less ? w : least.other;
 		}
 	} while ((h = ty_next_around(&run->mesh, h)) != first);
 	return least;
@@ -224,16 +227,16 @@ fill_buckets(ty_run *run)
 	for (uint32_t h = 0; h < ty_half_edge(run->mesh.used_triangles, 0); h = ty_next_half_edge(h))
 	{
 		uint32_t a = ty_origin(&run->mesh, h), b = ty_target(&run->mesh, h);
+		int32_t key;
 
 		if (ty_interrupted_at(run->env, h))
 			return TY_INTERRUPTED;
-		if (a < b && b != TY_GHOST)
-		{
-			int32_t key = key_of_cost(edge_cost(run, a, b));
-
-			if (key < queue->key[a])
-				queue->key[a] = key;
-		}
+		if (a == TY_GHOST || b == TY_GHOST)
+			continue;
+		/* every edge comes twice; to skip one of them would be guessed wrong half the time */
+		key = key_of_cost(edge_cost(run, a, b));
+		key = a < b ? key : TY_NO_KEY;
+		queue->key[a] = key < queue->key[a] ? key : queue->key[a];
 	}
 	for (uint32_t v = 0; v < run->n && status == TY_OK; v++)
 		if (queue->key[v] != TY_NO_KEY)

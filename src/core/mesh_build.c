@@ -258,6 +258,21 @@ unite(const ty_vertex *p, const part *a, const part *b)
 	return u;
 }
 
+/* The chain of two vertices, by itself: so many joins are of this kind that it pays. */
+static void
+join_two(ty_mesh *mesh, uint32_t v, uint32_t w, uint32_t t, part *result)
+{
+	part first = {v, v, v, v, true}, second = {w, w, w, w, true};
+
+	mesh->triangles[t] =
+		(ty_triangle){{w, v, TY_GHOST}, {ty_half_edge(t + 1, 0), ty_half_edge(t + 1, 2), ty_half_edge(t + 1, 1)}};
+	mesh->triangles[t + 1] =
+		(ty_triangle){{v, w, TY_GHOST}, {ty_half_edge(t, 0), ty_half_edge(t, 2), ty_half_edge(t, 1)}};
+	mesh->vertex[v].edge = ty_half_edge(t, 1);
+	mesh->vertex[w].edge = ty_half_edge(t + 1, 1);
+	*result = unite(mesh->vertex, &first, &second);
+}
+
 /* first index in [low, high) whose key has the bit; the keys ascend and differ there first */
 static size_t
 split_point(const uint64_t *keys, size_t low, size_t high)
@@ -292,6 +307,11 @@ build(const builder *b, size_t low, size_t high, part *result)
 		uint32_t v = vertex_at(b, low);
 
 		*result = (part){v, v, v, v, true};
+		return TY_OK;
+	}
+	if (high - low == 2)
+	{
+		join_two(b->mesh, vertex_at(b, low), vertex_at(b, low + 1), (uint32_t) (2 * low), result);
 		return TY_OK;
 	}
 	middle = split_point(b->keys, low, high);
