@@ -336,7 +336,7 @@ ty_geometry_status
 ty_geometry_read(const ty_environment *env, const unsigned char *payload, size_t size, ty_building *building,
 				 int32_t *srid, uint32_t *type)
 {
-	cursor c;
+	cursor c, parts;
 	ty_measure m;
 	uint32_t count;
 	bool well_formed;
@@ -350,8 +350,16 @@ ty_geometry_read(const ty_environment *env, const unsigned char *payload, size_t
 
 		return points == TY_GEOMETRY_OK ? TY_GEOMETRY_UNSUPPORTED : points;
 	}
+	parts = c;
 	ty_measure_begin(&m, env);
+	ty_measure_skip_lengths(&m);
 	well_formed = measure_parts(&c, *type, count, &m);
+	if (well_formed && m.status == TY_OK && ty_measure_lacks_lengths(&m))
+	{
+		ty_measure_abandon(&m);
+		ty_measure_begin(&m, env);
+		well_formed = measure_parts(&parts, *type, count, &m);
+	}
 	if (m.count == 0 && m.status == TY_OK)
 		return well_formed ? TY_GEOMETRY_EMPTY : TY_GEOMETRY_CORRUPT;
 	status = ty_measure_end(&m, building);

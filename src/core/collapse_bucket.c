@@ -185,12 +185,12 @@ typedef struct lookout
 	uint32_t vertex[ABREAST];
 } lookout;
 
-/* Gives the vertices their least edges as keys, and forgets them. */
+/* Gives the vertices, which wait in bucket b, their least edges as keys, and forgets them. */
 static ty_status
-look_again(ty_run *run, lookout *looked)
+look_again(ty_run *run, uint32_t b, lookout *looked)
 {
 	uint32_t owner[ABREAST], other[ABREAST];
-	size_t near = 0;
+	size_t near = 0, others = 0;
 	ty_status status = TY_OK;
 
 	fetch_stars(run, looked->vertex, looked->count, false);
@@ -203,9 +203,13 @@ look_again(ty_run *run, lookout *looked)
 			continue;
 		owner[near] = least.owner;
 		other[near++] = least.other;
+		__builtin_prefetch(&run->queue.key[least.other]);
 	}
 	fetch_stars(run, owner, near, true);
-	fetch_stars(run, other, near, true);
+	for (size_t i = 0; i < near; i++)
+		if (!is_waiting(run, other[i], b)) /* else its own turn comes, or has come */
+			other[others++] = other[i];
+	fetch_stars(run, other, others, true);
 	looked->count = 0;
 	return status;
 }
@@ -222,9 +226,9 @@ look_at_slice(ty_run *run, uint32_t b, const uint32_t *slice, size_t count)
 		if (is_waiting(run, slice[i], b))
 			looked.vertex[looked.count++] = slice[i];
 		if (looked.count == ABREAST)
-			status = look_again(run, &looked);
+			status = look_again(run, b, &looked);
 	}
-	return status == TY_OK ? look_again(run, &looked) : status;
+	return status == TY_OK ? look_again(run, b, &looked) : status;
 }
 
 /* ---- limits ---- */

@@ -249,9 +249,12 @@ find_stop(const group *g, size_t n)
 {
 	const ty_parameters *p = g->parameters;
 	ty_stop stop = {n, p->min_distance / g->grid.cell};
+	double mean_area = 0;
 
+	if (p->count_rule == TY_BLACK_WHITE)
+		mean_area = sum_areas(g->buildings, NULL, n, g->scale) / (double) n;
 	if (p->law)
-		stop.count = ty_count(n, p, sum_areas(g->buildings, NULL, n, g->scale) / (double) n);
+		stop.count = ty_count(n, p, mean_area);
 	return stop;
 }
 

@@ -34,6 +34,27 @@ ty_measure_begin(ty_measure *m, const ty_environment *env)
 	m->capacity = TY_HULL_INLINE;
 	m->points = m->inline_points;
 	m->base = (ty_point){NAN, NAN};
+	m->skips_lengths = m->lacks_lengths = false;
+}
+
+void
+ty_measure_skip_lengths(ty_measure *m)
+{
+	m->skips_lengths = true;
+}
+
+bool
+ty_measure_lacks_lengths(const ty_measure *m)
+{
+	return m->lacks_lengths && m->areal.weight == 0;
+}
+
+void
+ty_measure_abandon(ty_measure *m)
+{
+	if (m->points != m->inline_points)
+		ty_release(m->env, m->points);
+	m->points = m->inline_points;
 }
 
 static size_t convex_hull(ty_point *points, size_t n, ty_point *hull);
@@ -97,25 +118,40 @@ add_moment(ty_moment *moment, double weight, double x, double y)
 	moment->y += weight * y;
 }
 
-/* length-weighted sum of a path's segments; a path without length counts as its first point */
-static void
-add_path(ty_measure *m, const void *xy, size_t stride, uint32_t n, bool outline)
+/* takes the path's points into the box and, if they are of the outline, into that; false when that ended the measure */
+static bool
+add_points(ty_measure *m, const void *xy, size_t stride, uint32_t n, bool outline)
 {
-	double length = 0;
-	ty_point before = {0, 0}, first = {0, 0};
-
-	for (uint32_t i = 0; i < n && m->status == TY_OK; i++)
+	for (uint32_t i = 0; i < n; i++)
 	{
 		ty_point p = read_point(xy, stride, i);
 
 		if (!extend_box(m, p) || (outline && m->count == m->capacity && !make_room(m)))
-			return;
+			return false;
 		if (i > 0 && ty_interrupted_at(m->env, i))
+		{
 			m->status = TY_INTERRUPTED;
+			return false;
+		}
+		if (outline)
+			m->points[m->count++] = (ty_point){p.x - m->base.x, p.y - m->base.y};
+	}
+	return true;
+}
+
+/* length-weighted sum of a path's segments; a path without length counts as its first point */
+static void
+add_lengths(ty_measure *m, const void *xy, size_t stride, uint32_t n)
+{
+	double length = 0;
+	ty_point before = {0, 0}, first = {0, 0};
+
+	for (uint32_t i = 0; i < n; i++)
+	{
+		ty_point p = read_point(xy, stride, i);
+
 		p.x -= m->base.x;
 		p.y -= m->base.y;
-		if (outline)
-			m->points[m->count++] = p;
 		if (i == 0)
 			first = p;
 		else
@@ -164,21 +200,26 @@ add_area(ty_measure *m, const void *xy, size_t stride, uint32_t n, bool shell)
 void
 ty_measure_ring(ty_measure *m, const void *xy, size_t stride, uint32_t n, bool shell)
 {
-	add_path(m, xy, stride, n, shell);
-	if (n > 0 && m->status == TY_OK)
-		add_area(m, xy, stride, n, shell);
+	if (m->status != TY_OK || n == 0 || !add_points(m, xy, stride, n, shell))
+		return;
+	if (m->skips_lengths)
+		m->lacks_lengths = true;
+	else
+		add_lengths(m, xy, stride, n);
+	add_area(m, xy, stride, n, shell);
 }
 
 void
 ty_measure_line(ty_measure *m, const void *xy, size_t stride, uint32_t n)
 {
-	add_path(m, xy, stride, n, true);
+	if (m->status == TY_OK && add_points(m, xy, stride, n, true))
+		add_lengths(m, xy, stride, n);
 }
 
 void
 ty_measure_point(ty_measure *m, const void *xy)
 {
-	add_path(m, xy, sizeof(ty_point), 1, true);
+	ty_measure_line(m, xy, sizeof(ty_point), 1);
 }
 
 /* The centroid by the highest dimension that has a weight. */
@@ -213,8 +254,7 @@ ty_measure_end(ty_measure *m, ty_building *building)
 			ty_minimum_rectangle(m->points, m->count, m->points + m->capacity, &building->ratio, &building->ux,
 								 &building->uy);
 	}
-	if (m->points != m->inline_points)
-		ty_release(m->env, m->points);
+	ty_measure_abandon(m);
 	return m->status;
 }
 
@@ -328,6 +368,16 @@ unit(ty_point a, ty_point b)
 	return (ty_point){dx / length, dy / length};
 }
 
+#define EDGES_AHEAD 16
+
+/* Unit vectors of the next edges: by themselves, so that their divisions overlap and wait for no comparison. */
+static void
+unit_edges(const ty_point *hull, size_t n, size_t first, ty_point edge[EDGES_AHEAD])
+{
+	for (size_t i = first; i < n && i < first + EDGES_AHEAD; i++)
+		edge[i - first] = unit(hull[i], hull[i + 1 < n ? i + 1 : 0]);
+}
+
 /* the longer side's direction, turned into [0, 180) */
 static void
 set_direction(ty_point e, double *ux, double *uy)
@@ -347,6 +397,7 @@ ty_minimum_rectangle(ty_point *points, size_t n, ty_point *hull, double *ratio, 
 {
 	double least = INFINITY;
 	size_t front = 0, top = 0, back = 0; /* farthest along the edge, across it, and against it */
+	ty_point edge[EDGES_AHEAD];
 
 	*ratio = 1;
 	*ux = 1;
@@ -354,9 +405,13 @@ ty_minimum_rectangle(ty_point *points, size_t n, ty_point *hull, double *ratio, 
 	n = convex_hull(points, n, hull);
 	for (size_t i = 0; n > 1 && i < n; i++)
 	{
-		ty_point e = unit(hull[i], hull[i + 1 < n ? i + 1 : 0]);
-		ty_point across = {-e.y, e.x};
+		ty_point e, across;
 		double side, height;
+
+		if (i % EDGES_AHEAD == 0)
+			unit_edges(hull, n, i, edge);
+		e = edge[i % EDGES_AHEAD];
+		across = (ty_point){-e.y, e.x};
 
 		front = farthest(hull, n, front, e);
 		top = farthest(hull, n, i == 0 ? front : top, across);

@@ -43,6 +43,7 @@ typedef struct ty_measure
 	ty_point base;					 /* first point; everything is summed relative to it */
 	ty_point low, high;				 /* the box */
 	ty_moment areal, linear, puntal; /* the highest dimension with a weight gives the centroid */
+	bool skips_lengths, lacks_lengths;
 	double area;
 	size_t count, capacity; /* points of shells, lines and points: the outline that carries the rectangle */
 	ty_point *points;
@@ -50,6 +51,14 @@ typedef struct ty_measure
 } ty_measure;
 
 void ty_measure_begin(ty_measure *m, const ty_environment *env);
+/*
+ * For speed: leaves out the lengths of rings, which count only where all areas come to 0. Where they do,
+ * ty_measure_lacks_lengths says so before the end, and the geometry is to be handed over again without skipping.
+ */
+void ty_measure_skip_lengths(ty_measure *m);
+bool ty_measure_lacks_lengths(const ty_measure *m);
+/* Gives up a measure that is not ended. */
+void ty_measure_abandon(ty_measure *m);
 /* n points of a polygon's ring, closed or not, of either direction; holes are rings with shell = false */
 void ty_measure_ring(ty_measure *m, const void *xy, size_t stride, uint32_t n, bool shell);
 void ty_measure_line(ty_measure *m, const void *xy, size_t stride, uint32_t n);
