@@ -21,7 +21,7 @@
 #define OCTAVES 63 /* costs are below 2^30.5 cells * 2^31 */
 
 /* Walks side by side: more than the memory requests that a core has under way at a time (measured: 16 to 64). */
-#define ABREAST 48
+#define ABREAST 32
 #define SLICE 512 /* vertices of a bucket whose keys are fetched side by side */
 #define STEPS 16  /* a walk goes no farther: most stars have 6 corners */
 

@@ -192,13 +192,10 @@ ty_least_edge(const ty_run *run, uint32_t v)
 
 		if (w != TY_GHOST)
 		{
-			double cost = edge_cost(run, v, w);
-			bool less = cost < least.cost;
+			ty_edge e = {edge_cost(run, v, w), v, w};
 
-			if (cost == least.cost)
-				less = ty_before((ty_edge){cost, v, w}, least);
-			least.cost = less ? cost : least.cost;
-			least.other = less ? w : least.other;
+			if (ty_before(e, least))
+				least = e;
 		}
 	} while ((h = ty_next_around(&run->mesh, h)) != first);
 	return least;
