@@ -245,7 +245,7 @@ compare_edges(const void *a, const void *b)
 static ty_edge
 end_of_bucket(const ty_queue *queue, uint32_t b)
 {
-	uint32_t bits = 0x3f800000 + ((b + 1) << queue->shift);
+	uint32_t bits = TY_LEAST_KEY + ((b + 1) << queue->shift);
 	float end;
 
 	memcpy(&end, &bits, sizeof end);

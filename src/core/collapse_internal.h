@@ -12,7 +12,8 @@ typedef struct ty_edge
 	uint32_t owner, other; /* other TY_NONE: no edge but a lower bound for the owner's edges */
 } ty_edge;
 
-#define TY_NO_KEY 0x7f800000 /* INFINITY: nothing to cover, or gone */
+#define TY_LEAST_KEY 0x3f800000 /* of cost 1: no two vertices are nearer than a cell */
+#define TY_NO_KEY 0x7f800000	/* INFINITY: nothing to cover, or gone */
 
 #define TY_SORTED 512 /* entries of a bucket that are sorted; more of them go into the heap */
 
@@ -35,12 +36,12 @@ typedef struct ty_bucket
 typedef struct ty_queue
 {
 	int32_t *key; /* [n] bits of a float not above the costs of the edges that the vertex covers */
-	ty_edge
-		*sorted; /* [2 * TY_SORTED] the least entries of all come from here (the second half: not yet in order) ... */
+	/* The least entry of all is the next of `sorted`, whose second half is not in order yet, or on top of the heap. */
+	ty_edge *sorted; /* [2 * TY_SORTED] */
 	size_t sorted_next, sorted_count;
-	ty_edge *heap; /* ... or from here */
+	ty_edge *heap;
 	size_t heap_count, heap_capacity;
-	ty_edge limit;	   /* entries up to this one are in the heap, all others in buckets */
+	ty_edge limit;	   /* entries up to this one are sorted or in the heap, all others in buckets */
 	ty_bucket *bucket; /* [buckets] those before `next` are empty */
 	uint32_t buckets, next;
 	int shift; /* a key's bits below a bucket's number */
@@ -137,7 +138,7 @@ ty_is_near(const ty_queue *queue, ty_edge e)
 static inline uint32_t
 ty_bucket_of(const ty_queue *queue, int32_t key)
 {
-	return ((uint32_t) key - 0x3f800000) >> queue->shift; /* costs are at least 1; beyond all buckets for other keys */
+	return ((uint32_t) key - TY_LEAST_KEY) >> queue->shift; /* beyond all buckets for keys that stand for no cost */
 }
 
 /* ---- collapse.c ---- */
