@@ -44,14 +44,11 @@ word_count() { sed -n "s/.*\b\([0-9]\+\) $1.*/\1/p" <<<"$2" | grep . || echo 0; 
 add() { for ((i = 0; i < $1; i++)); do echo "$2"; done >>"$TALLY"; }
 counted() { grep -c "^$1\$" "$TALLY" || true; }
 
-# Prints the closing line; fails when a test did or when there was none.
+# Prints how many were skipped and, alone on the last line, the count; fails when a test did or when there was none.
 close_tally() {
 	local passed failed skipped
 	passed=$(counted ok) failed=$(counted failed) skipped=$(counted skipped)
-	if [ "$skipped" = 0 ]; then
-		echo "$passed passed, $failed failed"
-	else
-		echo "$passed passed, $failed failed, $skipped skipped"
-	fi
+	if [ "$skipped" != 0 ]; then echo "$skipped skipped, each for the reason above"; fi
+	echo "$passed passed, $failed failed"
 	[ "$failed" = 0 ] && [ "$passed" != 0 ]
 }
