@@ -34,6 +34,7 @@ typedef struct state
 	ty_parameters parameters;
 	uint64 generation; /* of the call's parameters when they were last found equal to these */
 	int32 srid;
+	double metres_per_unit; /* of the SRID */
 	size_t count, capacity;
 	ty_building *buildings;
 } state;
@@ -49,16 +50,17 @@ typedef struct state_image
 	int32 srid;
 	uint32 unused;
 	uint64 count;
+	double metres_per_unit;
 	ty_parameters parameters;
 } state_image;
 
-#define STATE_MAGIC 0x54590001 /* the last byte is the version */
+#define STATE_MAGIC 0x54590002 /* the last byte is the version */
 
 /* --- states --- */
 
 /* Makes an empty state in the context. */
 static state *
-state_new(MemoryContext context, const ty_parameters *parameters, int32 srid)
+state_new(MemoryContext context, const ty_parameters *parameters, int32 srid, double metres_per_unit)
 {
 	state *s = MemoryContextAlloc(context, sizeof(state));
 
@@ -66,6 +68,7 @@ state_new(MemoryContext context, const ty_parameters *parameters, int32 srid)
 	s->parameters = *parameters;
 	s->generation = 0;
 	s->srid = srid;
+	s->metres_per_unit = metres_per_unit;
 	s->count = s->capacity = 0;
 	s->buildings = NULL;
 	return s;
@@ -132,6 +135,7 @@ state_serialize(const state *s)
 	image.building_size = sizeof(ty_building);
 	image.srid = s->srid;
 	image.count = s->count;
+	image.metres_per_unit = s->metres_per_unit;
 	image.parameters = s->parameters;
 	value = palloc(size);
 	SET_VARSIZE(value, size);
@@ -155,7 +159,7 @@ state_deserialize(bytea *value)
 		image.count > TY_MAX_VERTICES || size - sizeof(image) != image.count * sizeof(ty_building))
 		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION),
 				errmsg("a typify state is from another version, or broken"));
-	s = state_new(CurrentMemoryContext, &image.parameters, image.srid);
+	s = state_new(CurrentMemoryContext, &image.parameters, image.srid, image.metres_per_unit);
 	state_reserve(s, image.count);
 	memcpy(s->buildings, VARDATA_ANY(value) + sizeof(image), image.count * sizeof(ty_building));
 	s->count = image.count;
@@ -210,10 +214,7 @@ state_for_row(FunctionCallInfo fcinfo, MemoryContext context, const row_layout *
 	const ty_parameters *parameters = ty_call_parameters(call, &fcinfo->args[layout->parameters], s == NULL);
 
 	if (s == NULL)
-	{
-		ty_check_srid(&call->srids, srid);
-		s = state_new(context, parameters, srid);
-	}
+		s = state_new(context, parameters, srid, ty_check_srid(&call->srids, srid));
 	else if (unlikely(s->generation != call->generation) && !ty_same_parameters(&s->parameters, parameters))
 		ty_refuse_varying_parameters();
 	s->generation = call->generation;
@@ -256,7 +257,10 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 static void
 state_typify(const state *s, ty_result *result)
 {
-	ty_typify_group(s->buildings, s->count, &s->parameters, result);
+	ty_parameters parameters = s->parameters;
+
+	ty_bring_to_ground(&parameters, s->metres_per_unit);
+	ty_typify_group(s->buildings, s->count, &parameters, result);
 	if (s->count >= LARGE_GROUP)
 		ty_trim_memory();
 	if (result->undrawn > 0)
@@ -486,7 +490,7 @@ typify_combine(PG_FUNCTION_ARGS)
 	if (a == NULL && b == NULL)
 		PG_RETURN_NULL();
 	if (a == NULL)
-		a = state_new(context, &b->parameters, b->srid);
+		a = state_new(context, &b->parameters, b->srid, b->metres_per_unit);
 	if (b != NULL)
 		state_merge(a, b);
 	PG_RETURN_POINTER(a);
