@@ -257,10 +257,11 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 static void
 state_typify(const state *s, ty_result *result)
 {
+	ty_input input = {.buildings = s->buildings, .n = s->count};
 	ty_parameters parameters = s->parameters;
 
 	ty_bring_to_ground(&parameters, s->metres_per_unit);
-	ty_typify_group(s->buildings, s->count, &parameters, result);
+	ty_typify_group(&input, &parameters, result);
 	if (s->count >= LARGE_GROUP)
 		ty_trim_memory();
 	if (result->undrawn > 0)

@@ -284,8 +284,10 @@ order_group(const ty_environment *env, group *g, size_t n)
 }
 
 ty_status
-ty_typify(const ty_environment *env, const ty_building *buildings, size_t n, const ty_parameters *p, ty_result *result)
+ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result)
 {
+	const ty_building *buildings = input->buildings;
+	size_t n = input->n;
 	group g = {.buildings = buildings, .parameters = p, .area_factor = ty_area_factor(p)};
 	ty_sequence sequence = {0};
 	ty_status status;

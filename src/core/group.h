@@ -8,6 +8,13 @@
 #include "measure.h"
 #include "placeholder.h"
 
+/* What a group is made of. Only read. */
+typedef struct ty_input
+{
+	const ty_building *buildings; /* [n] in any order */
+	size_t n;					  /* >= 1 */
+} ty_input;
+
 typedef struct ty_placeholder
 {
 	double x, y; /* the vertex, ground units; of a single building its very centroid, off the grid */
@@ -28,12 +35,11 @@ typedef struct ty_result
 } ty_result;
 
 /*
- * The whole way of one group: canonical order, mesh, collapse, cut, placeholders. Buildings are only read. n >= 1.
+ * The whole way of one group: canonical order, mesh, collapse, cut, placeholders.
  * Lengths of p are ground units (ty_bring_to_ground).
  * The result's arrays come from env; ty_result_free gives them back. TY_NOT_FINITE when a sum of areas overflows.
  */
-ty_status ty_typify(const ty_environment *env, const ty_building *buildings, size_t n, const ty_parameters *p,
-					ty_result *result);
+ty_status ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result);
 void ty_result_free(const ty_environment *env, ty_result *result);
 
 #endif
