@@ -16,13 +16,6 @@ LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE COST 10;
 COMMENT ON FUNCTION typify_measure(geometry) IS
 'What typify keeps of a building. x, y: as of typify_centre. area: of the shells less that of the holes. ratio: of the shorter to the longer side of the minimum-area bounding rectangle, 1 where it has no area. ux, uy: unit vector along its longer side, uy at least 0. In units of the SRID; NULL for EMPTY. Errors: as of typify_centre.';
 
-CREATE FUNCTION typify_box_pairs(a box[], b box[])
-RETURNS TABLE (a_place integer, b_place integer)
-AS 'MODULE_PATHNAME'
-LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE COST 10000 ROWS 100000;
-COMMENT ON FUNCTION typify_box_pairs(box[], box[]) IS
-'Which boxes of a meet which of b, borders included: their places, counted from 1. Needs no index. In the order of a. Errors: 22004 for an array that contains NULLs; 22023 for a coordinate that is not finite.';
-
 CREATE FUNCTION typify_nearest_segments(points point[], segments lseg[])
 RETURNS integer[]
 AS 'MODULE_PATHNAME'
@@ -124,13 +117,7 @@ COMMENT ON FUNCTION typify_quality_segments(regclass, text, name, integer) IS
 
 -- ---- the figures ----
 
-CREATE FUNCTION typify_valid(geom geometry) RETURNS geometry
-LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
-RETURN CASE WHEN ST_IsValid(geom) THEN geom ELSE ST_CollectionExtract(ST_MakeValid(geom), 3) END;
-COMMENT ON FUNCTION typify_valid(geometry) IS 'The polygon itself where it is valid, else what ST_MakeValid makes of it';
-
--- Polygons that share no more than a border have a common area of rounding errors. Where many overlap in one place, each
--- place is inked once.
+-- Where many overlap in one place, each place is inked once.
 CREATE FUNCTION typify_quality_gaps(geoms geometry[], min_side double precision, min_gap double precision,
 	OUT overlapping bigint, OUT narrow_gaps bigint, OUT short_sides bigint, OUT inked double precision)
 LANGUAGE plpgsql STABLE PARALLEL SAFE
@@ -140,25 +127,16 @@ SET jit = off
 AS $$
 BEGIN
 	WITH shape AS MATERIALIZED (
-		SELECT geom, place, ST_Area(geom) AS area, box(geom) AS box FROM unnest(geoms) WITH ORDINALITY AS s (geom, place)
+		SELECT geom, place, ST_Area(geom) AS area FROM unnest(geoms) WITH ORDINALITY AS s (geom, place)
 	), pair AS MATERIALIZED (
-		SELECT a_place, b_place, a.geom AS a, b.geom AS b, least(a.area, b.area) AS area,
-			ST_Distance(a.geom, b.geom) AS distance
-		FROM typify_box_pairs((SELECT coalesce(array_agg(box ORDER BY place), '{}') FROM shape),
-			(SELECT coalesce(array_agg(box(ST_Expand(geom, min_gap)) ORDER BY place), '{}') FROM shape)) AS near
-		JOIN shape AS a ON a.place = a_place JOIN shape AS b ON b.place = b_place
-		WHERE a_place < b_place
-	), narrow AS MATERIALIZED (
-		SELECT a_place, b_place, CASE WHEN distance = 0
-			THEN ST_Area(ST_Intersection(typify_valid(a), typify_valid(b))) > 1e-6 * area ELSE false END AS overlap
-		FROM pair WHERE distance = 0 OR distance < min_gap * (1 - 1e-6)
+		SELECT a_place, b_place, overlap FROM typify_close_pairs(geoms, min_gap)
 	), crowd AS (
 		SELECT place, geom, area, ST_ClusterDBSCAN(geom, 0, 1) OVER () AS crowd
-		FROM shape WHERE place IN (SELECT unnest(ARRAY[a_place, b_place]) FROM narrow WHERE overlap)
+		FROM shape WHERE place IN (SELECT unnest(ARRAY[a_place, b_place]) FROM pair WHERE overlap)
 	), crowd_area AS (
 		SELECT sum(area) - ST_Area(ST_UnaryUnion(ST_Collect(typify_valid(geom)))) AS twice FROM crowd GROUP BY crowd
 	)
-	SELECT (SELECT count(*) FROM narrow WHERE overlap), (SELECT count(*) FROM narrow WHERE NOT overlap AND min_gap > 0),
+	SELECT (SELECT count(*) FROM pair WHERE overlap), (SELECT count(*) FROM pair WHERE NOT overlap),
 		(SELECT count(*) FROM shape, typify_sides(geom) WHERE width < min_side * (1 - 1e-6)),
 		(SELECT coalesce(sum(area), 0) FROM shape) - (SELECT coalesce(sum(twice), 0) FROM crowd_area)
 	INTO overlapping, narrow_gaps, short_sides, inked;
