@@ -208,7 +208,8 @@ COMMENT ON FUNCTION typify_svg_check(double precision, double precision, double 
 	geometry[]) IS
 'Refuses arguments that typify_svg cannot draw; returns their SRID';
 
--- Counts stand above the panels, scale and scale bar below the first; a lone panel is drawn in black.
+-- Counts stand above the panels, scale and scale bar below the first, violations below the placeholders; a lone panel is
+-- drawn in black.
 CREATE FUNCTION typify_svg(before geometry, after geometry, scale double precision, roads geometry DEFAULT NULL,
 	title text DEFAULT NULL, magnify double precision DEFAULT 1, frame geometry DEFAULT NULL,
 	attribution text DEFAULT NULL, barriers geometry DEFAULT NULL, barrier_width double precision DEFAULT 0,
@@ -234,13 +235,14 @@ DECLARE
 	picture text := coalesce(typify_svg_text(margin, margin + 3, 3.4, title, ' font-weight="bold"'), '');
 	below text;
 	axes text;
-	violations record;
+	marks text;
+	words text;
+	words_x double precision;
 BEGIN
 	IF shown IS NULL THEN
 		RETURN NULL;
 	END IF;
-	below := coalesce(typify_svg_layer(coalesce(roads, ST_SetSRID('GEOMETRYCOLLECTION EMPTY'::geometry, srid)), shown,
-			mm_per_unit, '#d9cfbd', road_width), '')
+	below := coalesce(typify_svg_layer(roads, shown, mm_per_unit, '#d9cfbd', road_width), '')
 		|| coalesce(typify_svg_layer(barriers, shown, mm_per_unit, '#e08e79', greatest(barrier_width, 0.1) * magnify), '');
 	axes := coalesce(typify_svg_layer(rows, shown, mm_per_unit, '#1f77b4', greatest(0.15, 0.08 * magnify)), '');
 	IF before IS NOT NULL OR after IS NULL THEN
@@ -249,10 +251,12 @@ BEGIN
 		x := x + panel_width + margin;
 	END IF;
 	IF after IS NOT NULL THEN
-		violations := typify_svg_marks(after, shown, mm_per_unit, min_gap / 1000 * scale / (mm_per_unit / mm_per_metre));
+		words_x := CASE WHEN before IS NULL THEN x + 26 ELSE x END;
+		SELECT found.marks, found.words INTO marks, words
+		FROM typify_svg_marks(after, shown, mm_per_unit, min_gap * magnify / mm_per_unit) AS found;
 		picture := picture || typify_svg_panel(x, y, shown, mm_per_unit, after, 'placeholder', black, below,
-				coalesce(violations.marks, '') || axes)
-			|| coalesce(typify_svg_text(x, bottom + 3.6, 2.3, violations.words, ' fill="#d62728"'), '');
+				coalesce(marks, '') || axes)
+			|| coalesce(typify_svg_text(words_x, bottom + 3.6, 2.3, words, ' fill="#d62728"'), '');
 		x := x + panel_width + margin;
 	END IF;
 	picture := picture || typify_svg_text(margin, bottom + 3.6, 2.3, '1:' || typify_svg_number(scale) || CASE
@@ -261,7 +265,7 @@ BEGIN
 		|| coalesce(typify_svg_text(margin, bottom + 10.4, 1.8, attribution, ' fill="#777"'), '');
 	-- words are as wide as they are long times their size times 0.6, at most
 	RETURN typify_svg_document(
-		greatest(x, 2 * margin + 2.1 * length(coalesce(title, '')),
+		greatest(x, words_x + 1.4 * length(words), 2 * margin + 2.1 * length(coalesce(title, '')),
 			2 * margin + 1.1 * length(coalesce(attribution, ''))),
 		bottom + CASE WHEN attribution IS NULL THEN 9.5 ELSE 12.5 END, picture);
 END $$;
