@@ -418,6 +418,24 @@ free_run(ty_run *run)
 	ty_release(run->env, run->near);
 }
 
+static ty_status
+collapse_few(ty_run *run, ty_stop stop)
+{
+	ty_status status = reserve_sequence(run, run->n - least_vertices(stop));
+
+	if (status == TY_OK)
+		ty_collapse_few(run, stop);
+	return status;
+}
+
+static ty_status
+collapse_many(ty_run *run, ty_stop stop)
+{
+	ty_status status = prepare(run, stop);
+
+	return status == TY_OK && run->mesh.env != NULL ? collapse_all(run, stop) : status;
+}
+
 ty_status
 ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s_u, ty_stop stop, bool with_cost,
 			ty_after_merge after_merge, void *context, ty_sequence *sequence)
@@ -438,9 +456,7 @@ ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s
 	{
 		status = allocate_run(&run, position, stop.min_distance > 0);
 		if (status == TY_OK)
-			status = prepare(&run, stop);
-		if (status == TY_OK && run.mesh.env != NULL)
-			status = collapse_all(&run, stop);
+			status = n <= TY_FEW && after_merge == NULL ? collapse_few(&run, stop) : collapse_many(&run, stop);
 		free_mesh_and_queue(&run);
 		if (status == TY_OK)
 			status = list_kept(&run);

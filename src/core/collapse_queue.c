@@ -25,19 +25,6 @@
 #endif
 #define FIRST_HEAP 64
 
-/* ---- cost and order ---- */
-
-/* f_a * distance (paper; symmetric form of spec 2.3) */
-static double
-edge_cost(const ty_run *run, uint32_t a, uint32_t b)
-{
-	const ty_vertex *p = &run->vertex[a], *q = &run->vertex[b];
-	double length = sqrt((double) ty_squared_distance(p->position, q->position));
-	double factor = run->s_u * (((double) p->size - 1) + ((double) q->size - 1)) + 1;
-
-	return factor * length;
-}
-
 /* bits of the largest float that is not above a cost; they ascend as costs do, which are not negative */
 static int32_t
 key_of_cost(double cost)
@@ -192,7 +179,7 @@ ty_least_edge(const ty_run *run, uint32_t v)
 
 		if (w != TY_GHOST)
 		{
-			ty_edge e = {edge_cost(run, v, w), v, w};
+			ty_edge e = {ty_edge_cost(run, v, w), v, w};
 
 			if (ty_before(e, least))
 				least = e;
@@ -206,7 +193,7 @@ void
 ty_cover_edge(void *context, uint32_t a, uint32_t b)
 {
 	ty_run *run = context;
-	ty_edge e = {edge_cost(run, a, b), a, b};
+	ty_edge e = {ty_edge_cost(run, a, b), a, b};
 	int32_t key = key_of_cost(e.cost);
 
 	if (run->status == TY_OK && run->queue.key[a] >= key && run->queue.key[b] >= key)
@@ -231,7 +218,7 @@ fill_buckets(ty_run *run)
 		if (a == TY_GHOST || b == TY_GHOST)
 			continue;
 		/* every edge comes twice; to skip one of them would be guessed wrong half the time */
-		key = key_of_cost(edge_cost(run, a, b));
+		key = key_of_cost(ty_edge_cost(run, a, b));
 		key = a < b ? key : TY_NO_KEY;
 		queue->key[a] = key < queue->key[a] ? key : queue->key[a];
 	}
@@ -255,7 +242,7 @@ fill_heap(ty_run *run)
 
 		if (a < b && b != TY_GHOST)
 		{
-			ty_edge e = {edge_cost(run, a, b), a, b};
+			ty_edge e = {ty_edge_cost(run, a, b), a, b};
 
 			if (ty_before(e, queue->heap[a]))
 				queue->heap[a] = e;
@@ -354,7 +341,7 @@ half_edge_of(const ty_run *run, ty_edge e)
 	if (e.other == TY_NONE || run->mesh.live < 2)
 		return TY_NONE;
 	h = ty_mesh_find_edge(&run->mesh, e.owner, e.other);
-	return h != TY_NONE && edge_cost(run, e.owner, e.other) == e.cost ? h : TY_NONE;
+	return h != TY_NONE && ty_edge_cost(run, e.owner, e.other) == e.cost ? h : TY_NONE;
 }
 
 /* Takes the least entry out of the queue, once it has been looked at. */
