@@ -25,17 +25,22 @@
 #include "options.h"
 #include "progress.h"
 
-/* The array's first size in bytes, good for nine buildings: there may be 100 000 groups of about that many. */
-#define FIRST_SIZE 512
+/*
+ * The first buildings lie behind the state, in one piece of this size: there may be 100 000 groups of about ten, whose
+ * rows come in any order. A row of such a group waits for memory; what it needs of a state is in the first cache line.
+ */
+#define STATE_SIZE 1024
+#define FIRST_BUILDINGS ((STATE_SIZE - offsetof(state, first)) / sizeof(ty_building))
 
 typedef struct state
 {
+	size_t count, capacity;
+	ty_building *buildings; /* those behind the state, or an array of their own */
+	uint64 generation;		/* of the call's parameters when they were last found equal to these */
+	int32 srid;
 	MemoryContext context; /* of the state and its array */
 	ty_parameters parameters;
-	uint64 generation; /* of the call's parameters when they were last found equal to these */
-	int32 srid;
-	size_t count, capacity;
-	ty_building *buildings;
+	ty_building first[FLEXIBLE_ARRAY_MEMBER];
 } state;
 
 /*
@@ -60,14 +65,15 @@ typedef struct state_image
 static state *
 state_new(MemoryContext context, const ty_parameters *parameters, int32 srid)
 {
-	state *s = MemoryContextAlloc(context, sizeof(state));
+	state *s = MemoryContextAlloc(context, STATE_SIZE);
 
 	s->context = context;
 	s->parameters = *parameters;
 	s->generation = 0;
 	s->srid = srid;
-	s->count = s->capacity = 0;
-	s->buildings = NULL;
+	s->count = 0;
+	s->capacity = FIRST_BUILDINGS;
+	s->buildings = s->first;
 	return s;
 }
 
@@ -75,7 +81,7 @@ state_new(MemoryContext context, const ty_parameters *parameters, int32 srid)
 static void
 state_reserve(state *s, size_t more)
 {
-	size_t size = FIRST_SIZE;
+	size_t size = 2 * STATE_SIZE;
 
 	if (more <= s->capacity - s->count)
 		return;
@@ -83,8 +89,11 @@ state_reserve(state *s, size_t more)
 		ty_check_status(TY_TOO_MANY);
 	while (size / sizeof(ty_building) < s->count + more)
 		size *= 2;
-	if (s->buildings == NULL)
+	if (s->buildings == s->first)
+	{
 		s->buildings = MemoryContextAllocHuge(s->context, size);
+		memcpy(s->buildings, s->first, s->count * sizeof(ty_building));
+	}
 	else
 		s->buildings = repalloc_huge(s->buildings, size);
 	s->capacity = size / sizeof(ty_building);
