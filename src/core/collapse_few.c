@@ -48,7 +48,7 @@ find_pair(few *f, uint32_t v)
 	while (later != 0)
 	{
 		uint32_t w = take_first(&later);
-		double cost = ty_edge_cost(f->run, v, w);
+		double cost = ty_plain_cost(f->run, v, w);
 
 		f->other[v] = cost < f->cost[v] ? w : f->other[v];
 		f->cost[v] = cost < f->cost[v] ? cost : f->cost[v];
@@ -142,7 +142,7 @@ look_again(few *f, uint32_t v, uint32_t a, uint32_t b)
 	}
 	else if (v < a)
 	{
-		double cost = ty_edge_cost(f->run, v, a);
+		double cost = ty_plain_cost(f->run, v, a);
 
 		if (cost < f->cost[v] || (cost == f->cost[v] && a < f->other[v]))
 		{
@@ -157,8 +157,10 @@ static void
 merge_pair(few *f, uint32_t a, uint32_t b)
 {
 	ty_run *run = f->run;
+	ty_position to = ty_merged_place(run, a, b);
 
-	run->vertex[a].position = ty_join(run, a, b);
+	ty_join(run, a, b, run->vertex[a].position, to);
+	run->vertex[a].position = to;
 	ty_record(run, b, f->cost[a]);
 	ty_retire(run, a, b);
 	f->live &= ~bit_of(b);
