@@ -10,8 +10,9 @@
 #include "options.h"
 #include "srid.h"
 
-/* The array's first size in bytes, good for nine buildings: there may be 100 000 groups of about that many. */
-#define FIRST_SIZE 512
+/* The first buildings lie behind the state, in one piece of this size: there may be 100 000 groups of about ten. */
+#define STATE_SIZE 1024
+#define FIRST_BUILDINGS ((STATE_SIZE - offsetof(ty_state, first)) / sizeof(ty_building))
 
 /*
  * A state as it travels between the processes of one parallel query: this header, then the buildings, then the
@@ -36,7 +37,7 @@ ty_state *
 ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid, double metres_per_unit,
 			 Oid geometry_type)
 {
-	ty_state *s = MemoryContextAlloc(context, sizeof(ty_state));
+	ty_state *s = MemoryContextAlloc(context, STATE_SIZE);
 
 	s->context = context;
 	s->parameters = *parameters;
@@ -44,8 +45,9 @@ ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid,
 	s->srid = srid;
 	s->metres_per_unit = metres_per_unit;
 	s->geometry_type = geometry_type;
-	s->count = s->capacity = 0;
-	s->buildings = NULL;
+	s->count = 0;
+	s->capacity = FIRST_BUILDINGS;
+	s->buildings = s->first;
 	s->outlines = NULL;
 	return s;
 }
@@ -54,7 +56,7 @@ ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid,
 void
 ty_state_reserve(ty_state *s, size_t more)
 {
-	size_t size = FIRST_SIZE;
+	size_t size = 2 * STATE_SIZE;
 
 	if (more <= s->capacity - s->count)
 		return;
@@ -62,8 +64,11 @@ ty_state_reserve(ty_state *s, size_t more)
 		ty_check_status(TY_TOO_MANY);
 	while (size / sizeof(ty_building) < s->count + more)
 		size *= 2;
-	if (s->buildings == NULL)
+	if (s->buildings == s->first)
+	{
 		s->buildings = MemoryContextAllocHuge(s->context, size);
+		memcpy(s->buildings, s->first, s->count * sizeof(ty_building));
+	}
 	else
 		s->buildings = repalloc_huge(s->buildings, size);
 	s->capacity = size / sizeof(ty_building);

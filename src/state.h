@@ -11,16 +11,18 @@
 
 typedef struct ty_state
 {
-	MemoryContext context; /* of the state and its array */
-	ty_parameters parameters;
-	uint64 generation; /* of the call's parameters when they were last found equal to these */
+	/* what a row needs is in one cache line: the rows of many small groups come in any order and wait for memory */
+	size_t count, capacity;
+	ty_building *buildings; /* the first ones, or an array of their own */
+	uint64 generation;		/* of the call's parameters when they were last found equal to these */
 	int32 srid;
 	Oid geometry_type;
 	double metres_per_unit; /* of the SRID */
-	size_t count, capacity;
-	ty_building *buildings;
+	MemoryContext context;	/* of the state and its arrays */
+	ty_parameters parameters;
 	/* [capacity] what placeholders are drawn with, NULL for a building that has none; NULL while no building has one */
 	ty_outline **outlines;
+	ty_building first[FLEXIBLE_ARRAY_MEMBER];
 } ty_state;
 
 /* Makes an empty state in the context. */

@@ -59,6 +59,7 @@ typedef struct group
 	double area_factor;
 	uint32_t *order;	   /* [n] building by rank */
 	ty_position *position; /* [n] by rank */
+	uint64_t *keys;		   /* [n] by rank, until the collapse takes them */
 	uint64_t *area_bits;   /* [largest number of members] scratch of the median ... */
 	uint32_t *sorted;	   /* ... and what its sort moves along */
 } group;
@@ -290,15 +291,23 @@ find_stop(const group *g, size_t n)
 static ty_status
 order_group(const ty_environment *env, group *g, size_t n)
 {
-	uint64_t *keys = ty_allocate_array(env, n, sizeof *keys);
 	ty_status status = TY_NO_MEMORY;
 
+	g->keys = ty_allocate_array(env, n, sizeof *g->keys);
 	g->order = ty_allocate_array(env, n, sizeof *g->order);
 	g->position = ty_allocate_array(env, n, sizeof *g->position);
-	if (keys != NULL && g->order != NULL && g->position != NULL)
-		status = ty_canonical_order(env, g->buildings, n, &g->grid, g->order, g->position, keys);
-	ty_release(env, keys);
+	if (g->keys != NULL && g->order != NULL && g->position != NULL)
+		status = ty_canonical_order(env, g->buildings, n, &g->grid, g->order, g->position, g->keys);
 	return status;
+}
+
+static uint64_t *
+take_keys(group *g)
+{
+	uint64_t *keys = g->keys;
+
+	g->keys = NULL;
+	return keys;
 }
 
 ty_status
@@ -319,12 +328,14 @@ ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters 
 	g.scale = fit_area_scale(buildings, n);
 	status = order_group(env, &g, n);
 	if (status == TY_OK)
-		status = ty_collapse(env, g.position, n, p->s_u, NULL, find_stop(&g, n), false, NULL, NULL, &sequence);
+		status = ty_collapse_keyed(env, g.position, take_keys(&g), n, p->s_u, NULL, find_stop(&g, n), false, NULL, NULL,
+								   &sequence);
 	if (status == TY_OK)
 		status = cut_and_describe(env, &g, &sequence, n, result);
 	ty_sequence_free(env, &sequence);
 	ty_release(env, g.order);
 	ty_release(env, g.position);
+	ty_release(env, g.keys);
 	ty_release(env, g.area_bits);
 	ty_release(env, g.sorted);
 	if (status != TY_OK)
