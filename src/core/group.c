@@ -301,7 +301,7 @@ ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters 
 	g.scale = fit_area_scale(buildings, n);
 	status = order_group(env, &g, n);
 	if (status == TY_OK)
-		status = ty_collapse(env, g.position, n, p->s_u, find_stop(&g, n), false, NULL, NULL, &sequence);
+		status = ty_collapse(env, g.position, n, p->s_u, NULL, find_stop(&g, n), false, NULL, NULL, &sequence);
 	if (status == TY_OK)
 		status = cut_and_describe(env, &g, &sequence, n, result);
 	ty_sequence_free(env, &sequence);

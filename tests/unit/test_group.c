@@ -178,7 +178,8 @@ check_clusters(const ty_result *result, size_t n, double s_u)
 	const ty_stop stop = {result->count, 0};
 	ty_sequence sequence;
 
-	NEED(ty_collapse(&ty_plain_environment, position, n, s_u, stop, false, NULL, NULL, &sequence) == TY_OK, "collapse");
+	NEED(ty_collapse(&ty_plain_environment, position, n, s_u, NULL, stop, false, NULL, NULL, &sequence) == TY_OK,
+		 "collapse");
 	ty_sequence_cut(&sequence, n - result->count, n, label);
 	ty_sequence_free(&ty_plain_environment, &sequence);
 	for (size_t i = 0; i < result->count; i++)
