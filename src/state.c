@@ -14,8 +14,9 @@
 #define FIRST_SIZE 512
 
 /*
- * A state as it travels between the processes of one parallel query: this header, then the buildings. Both sides
- * run the same library on the same machine, so values are copied as they are.
+ * A state as it travels between the processes of one parallel query: this header, the buildings, and the geometry of
+ * barriers that are not constant for the query. Both sides run the same library on the same machine, so values are
+ * copied as they are.
  */
 typedef struct state_image
 {
@@ -24,11 +25,12 @@ typedef struct state_image
 	int32 srid;
 	uint32 unused;
 	uint64 count;
+	uint64 barriers_size; /* 0: none, or only their hash */
 	double metres_per_unit;
 	ty_parameters parameters;
 } state_image;
 
-#define STATE_MAGIC 0x54590002 /* the last byte is the version */
+#define STATE_MAGIC 0x54590003 /* the last byte is the version */
 
 /* Makes an empty state in the context. */
 ty_state *
@@ -43,6 +45,7 @@ ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid,
 	s->metres_per_unit = metres_per_unit;
 	s->count = s->capacity = 0;
 	s->buildings = NULL;
+	s->barriers = NULL;
 	return s;
 }
 
@@ -94,9 +97,12 @@ ty_state_merge(ty_state *a, const ty_state *b)
 bytea *
 ty_state_serialize(const ty_state *s)
 {
-	size_t size = VARHDRSZ + sizeof(state_image) + s->count * sizeof(ty_building);
+	size_t buildings = s->count * sizeof(ty_building);
+	size_t barriers = s->barriers == NULL || s->barriers->constant ? 0 : s->barriers->size;
+	size_t size = VARHDRSZ + sizeof(state_image) + buildings + barriers;
 	state_image image;
 	bytea *value;
+	char *at;
 
 	if (!AllocSizeIsValid(size))
 		ereport(ERROR, errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
@@ -107,13 +113,29 @@ ty_state_serialize(const ty_state *s)
 	image.building_size = sizeof(ty_building);
 	image.srid = s->srid;
 	image.count = s->count;
+	image.barriers_size = barriers;
 	image.metres_per_unit = s->metres_per_unit;
 	image.parameters = s->parameters;
 	value = palloc(size);
 	SET_VARSIZE(value, size);
-	memcpy(VARDATA(value), &image, sizeof(image));
-	memcpy(VARDATA(value) + sizeof(image), s->buildings, s->count * sizeof(ty_building));
+	at = VARDATA(value);
+	memcpy(at, &image, sizeof(image));
+	memcpy(at + sizeof(image), s->buildings, buildings);
+	if (barriers > 0)
+		memcpy(at + sizeof(image) + buildings, s->barriers->payload, barriers);
 	return value;
+}
+
+static bool
+is_sound(const state_image *image, size_t size)
+{
+	size_t buildings;
+
+	if (image->magic != STATE_MAGIC || image->building_size != sizeof(ty_building) || image->count == 0 ||
+		image->count > TY_MAX_VERTICES)
+		return false;
+	buildings = image->count * sizeof(ty_building);
+	return size - sizeof(*image) >= buildings && size - sizeof(*image) - buildings == image->barriers_size;
 }
 
 /* Makes the state in the current context; nothing of the value is kept. */
@@ -121,19 +143,23 @@ ty_state *
 ty_state_deserialize(bytea *value)
 {
 	size_t size = VARSIZE_ANY_EXHDR(value);
+	const char *at = VARDATA_ANY(value);
 	state_image image;
 	ty_state *s;
 
 	if (size < sizeof(image))
 		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION), errmsg("a typify state is truncated"));
-	memcpy(&image, VARDATA_ANY(value), sizeof(image));
-	if (image.magic != STATE_MAGIC || image.building_size != sizeof(ty_building) || image.count == 0 ||
-		image.count > TY_MAX_VERTICES || size - sizeof(image) != image.count * sizeof(ty_building))
+	memcpy(&image, at, sizeof(image));
+	if (!is_sound(&image, size))
 		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION),
 				errmsg("a typify state is from another version, or broken"));
 	s = ty_state_new(CurrentMemoryContext, &image.parameters, image.srid, image.metres_per_unit);
 	ty_state_reserve(s, image.count);
-	memcpy(s->buildings, VARDATA_ANY(value) + sizeof(image), image.count * sizeof(ty_building));
+	memcpy(s->buildings, at + sizeof(image), image.count * sizeof(ty_building));
 	s->count = image.count;
+	if (image.barriers_size > 0)
+		s->barriers =
+			ty_keep_barriers(palloc0(sizeof(ty_barrier_cache)), CurrentMemoryContext, image.parameters.barriers,
+							 at + size - image.barriers_size, image.barriers_size, false);
 	return s;
 }

@@ -4,6 +4,7 @@
 #ifndef TY_STATE_H
 #define TY_STATE_H
 
+#include "barriers.h"
 #include "compat.h"
 #include "core/measure.h"
 #include "core/placeholder.h"
@@ -17,6 +18,7 @@ typedef struct ty_state
 	double metres_per_unit; /* of the SRID */
 	size_t count, capacity;
 	ty_building *buildings;
+	ty_barrier_set *barriers; /* of the parameters; NULL too in a state that another process sent without them */
 } ty_state;
 
 /* Makes an empty state in the context. */
@@ -29,7 +31,7 @@ extern void ty_state_reserve(ty_state *s, size_t more);
 /* Raises the error of two SRIDs in a group where the state's is another. */
 extern void ty_state_check_srid(const ty_state *s, int32 srid);
 
-/* Appends a copy of what b holds; b stays as it is. */
+/* Appends a copy of what b holds but for its barriers, which a must have; b stays as it is. */
 extern void ty_state_merge(ty_state *a, const ty_state *b);
 
 /* In the current context; an error where a bytea cannot hold it. */

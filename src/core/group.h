@@ -4,6 +4,7 @@
 #ifndef TY_GROUP_H
 #define TY_GROUP_H
 
+#include "barrier.h"
 #include "environment.h"
 #include "measure.h"
 #include "placeholder.h"
@@ -11,8 +12,9 @@
 /* What a group is made of. Only read. */
 typedef struct ty_input
 {
-	const ty_building *buildings; /* [n] in any order */
-	size_t n;					  /* >= 1 */
+	const ty_building *buildings;	  /* [n] in any order */
+	size_t n;						  /* >= 1 */
+	const ty_barrier_lines *barriers; /* NULL: none */
 } ty_input;
 
 typedef struct ty_placeholder
