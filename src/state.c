@@ -14,27 +14,28 @@
 #define FIRST_SIZE 512
 
 /*
- * A state as it travels between the processes of one parallel query: this header, the buildings, and the geometry of
- * barriers that are not constant for the query. Both sides run the same library on the same machine, so values are
- * copied as they are.
+ * A state as it travels between the processes of one parallel query: this header, then the buildings, then the
+ * outlines, each behind the number of its building, then the geometry of barriers that are not constant for the query.
+ * Both sides run the same library on the same machine, so values are copied as they are.
  */
 typedef struct state_image
 {
 	uint32 magic;
 	uint32 building_size;
 	int32 srid;
-	uint32 unused;
-	uint64 count;
+	Oid geometry_type;
+	uint64 count, outlines;
 	uint64 barriers_size; /* 0: none, or only their hash */
 	double metres_per_unit;
 	ty_parameters parameters;
 } state_image;
 
-#define STATE_MAGIC 0x54590003 /* the last byte is the version */
+#define STATE_MAGIC 0x54590004 /* the last byte is the version */
 
 /* Makes an empty state in the context. */
 ty_state *
-ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid, double metres_per_unit)
+ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid, double metres_per_unit,
+			 Oid geometry_type)
 {
 	ty_state *s = MemoryContextAlloc(context, sizeof(ty_state));
 
@@ -43,8 +44,10 @@ ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid,
 	s->generation = 0;
 	s->srid = srid;
 	s->metres_per_unit = metres_per_unit;
+	s->geometry_type = geometry_type;
 	s->count = s->capacity = 0;
 	s->buildings = NULL;
+	s->outlines = NULL;
 	s->barriers = NULL;
 	return s;
 }
@@ -66,6 +69,120 @@ ty_state_reserve(ty_state *s, size_t more)
 	else
 		s->buildings = repalloc_huge(s->buildings, size);
 	s->capacity = size / sizeof(ty_building);
+	if (s->outlines != NULL)
+		s->outlines = repalloc_huge(s->outlines, s->capacity * sizeof(ty_outline *));
+}
+
+/* --- outlines --- */
+
+/* Sets the outlines of the buildings from number `from` on to none. */
+static void
+clear_outlines(ty_state *s, size_t from)
+{
+	for (size_t i = from; i < s->count; i++)
+		s->outlines[i] = NULL;
+}
+
+/* From now on every building has an outline or none. */
+static void
+begin_outlines(ty_state *s)
+{
+	if (s->outlines != NULL)
+		return;
+	s->outlines = MemoryContextAllocHuge(s->context, s->capacity * sizeof(ty_outline *));
+	clear_outlines(s, 0);
+}
+
+void
+ty_state_give_outline(ty_state *s, ty_outline *outline)
+{
+	if (outline == NULL)
+		return;
+	begin_outlines(s);
+	s->outlines[s->count - 1] = outline;
+}
+
+static size_t
+outline_bytes(const ty_outline *outline)
+{
+	return ty_outline_size(outline->rings, outline->points);
+}
+
+/* Puts a copy of the outline into the state's context. */
+static ty_outline *
+copy_outline(const ty_state *s, const ty_outline *outline)
+{
+	ty_outline *copy = MemoryContextAllocHuge(s->context, outline_bytes(outline));
+
+	memcpy(copy, outline, outline_bytes(outline));
+	return copy;
+}
+
+/* How many outlines a state has, and what they take as they travel. */
+static size_t
+count_outlines(const ty_state *s, size_t *bytes)
+{
+	size_t count = 0;
+
+	*bytes = 0;
+	for (size_t i = 0; s->outlines != NULL && i < s->count; i++)
+		if (s->outlines[i] != NULL)
+		{
+			count++;
+			*bytes += sizeof(uint64) + outline_bytes(s->outlines[i]);
+		}
+	return count;
+}
+
+static void
+write_outlines(const ty_state *s, char *at)
+{
+	for (size_t i = 0; s->outlines != NULL && i < s->count; i++)
+		if (s->outlines[i] != NULL)
+		{
+			uint64 building = i;
+
+			memcpy(at, &building, sizeof(building));
+			memcpy(at + sizeof(building), s->outlines[i], outline_bytes(s->outlines[i]));
+			at += sizeof(building) + outline_bytes(s->outlines[i]);
+		}
+}
+
+/* False when the bytes are not what write_outlines wrote. */
+static bool
+read_outlines(ty_state *s, size_t count, const char *at, size_t left)
+{
+	if (count > 0)
+		begin_outlines(s);
+	for (; count > 0; count--)
+	{
+		ty_outline head;
+		uint64 building;
+		size_t size;
+
+		if (left < sizeof(building) + sizeof(head))
+			return false;
+		memcpy(&building, at, sizeof(building));
+		memcpy(&head, at + sizeof(building), sizeof(head));
+		size = outline_bytes(&head);
+		left -= sizeof(building);
+		if (building >= s->count || size == 0 || size > left)
+			return false;
+		s->outlines[building] = MemoryContextAllocHuge(s->context, size);
+		memcpy(s->outlines[building], at + sizeof(building), size);
+		at += sizeof(building) + size;
+		left -= size;
+	}
+	return left == 0;
+}
+
+/* --- joining and travelling --- */
+
+void
+ty_state_check_srid(const ty_state *s, int32 srid)
+{
+	if (unlikely(s->srid != srid))
+		ty_refuse_two_srids(s->srid, srid);
 }
 
 static void
@@ -74,13 +191,8 @@ ty_state_append(ty_state *s, const ty_building *buildings, size_t count)
 	ty_state_reserve(s, count);
 	memcpy(s->buildings + s->count, buildings, count * sizeof(ty_building));
 	s->count += count;
-}
-
-void
-ty_state_check_srid(const ty_state *s, int32 srid)
-{
-	if (unlikely(s->srid != srid))
-		ty_refuse_two_srids(s->srid, srid);
+	if (s->outlines != NULL)
+		clear_outlines(s, s->count - count);
 }
 
 /* Appends a copy of what b holds; b stays as it is. */
@@ -91,15 +203,22 @@ ty_state_merge(ty_state *a, const ty_state *b)
 	if (!ty_same_parameters(&a->parameters, &b->parameters))
 		ty_refuse_varying_parameters();
 	ty_state_append(a, b->buildings, b->count);
+	if (b->outlines == NULL)
+		return;
+	begin_outlines(a);
+	for (size_t i = 0; i < b->count; i++)
+		if (b->outlines[i] != NULL)
+			a->outlines[a->count - b->count + i] = copy_outline(a, b->outlines[i]);
 }
 
 /* In the current context; an error where a bytea cannot hold it. */
 bytea *
 ty_state_serialize(const ty_state *s)
 {
-	size_t buildings = s->count * sizeof(ty_building);
-	size_t barriers = s->barriers == NULL || s->barriers->constant ? 0 : s->barriers->size;
-	size_t size = VARHDRSZ + sizeof(state_image) + buildings + barriers;
+	size_t outlines_size, outlines = count_outlines(s, &outlines_size);
+	size_t buildings_size = s->count * sizeof(ty_building);
+	size_t barriers_size = s->barriers == NULL || s->barriers->constant ? 0 : s->barriers->size;
+	size_t size = VARHDRSZ + sizeof(state_image) + buildings_size + outlines_size + barriers_size;
 	state_image image;
 	bytea *value;
 	char *at;
@@ -113,53 +232,54 @@ ty_state_serialize(const ty_state *s)
 	image.building_size = sizeof(ty_building);
 	image.srid = s->srid;
 	image.count = s->count;
-	image.barriers_size = barriers;
+	image.outlines = outlines;
+	image.barriers_size = barriers_size;
 	image.metres_per_unit = s->metres_per_unit;
+	image.geometry_type = s->geometry_type;
 	image.parameters = s->parameters;
 	value = palloc(size);
 	SET_VARSIZE(value, size);
 	at = VARDATA(value);
 	memcpy(at, &image, sizeof(image));
-	memcpy(at + sizeof(image), s->buildings, buildings);
-	if (barriers > 0)
-		memcpy(at + sizeof(image) + buildings, s->barriers->payload, barriers);
+	memcpy(at + sizeof(image), s->buildings, buildings_size);
+	write_outlines(s, at + sizeof(image) + buildings_size);
+	if (barriers_size > 0)
+		memcpy(at + size - VARHDRSZ - barriers_size, s->barriers->payload, barriers_size);
 	return value;
 }
 
-static bool
-is_sound(const state_image *image, size_t size)
+static void
+refuse_image(void)
 {
-	size_t buildings;
-
-	if (image->magic != STATE_MAGIC || image->building_size != sizeof(ty_building) || image->count == 0 ||
-		image->count > TY_MAX_VERTICES)
-		return false;
-	buildings = image->count * sizeof(ty_building);
-	return size - sizeof(*image) >= buildings && size - sizeof(*image) - buildings == image->barriers_size;
+	ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION),
+			errmsg("a typify state is from another version, or broken"));
 }
 
-/* Makes the state in the current context; nothing of the value is kept. */
 ty_state *
 ty_state_deserialize(bytea *value)
 {
-	size_t size = VARSIZE_ANY_EXHDR(value);
-	const char *at = VARDATA_ANY(value);
+	size_t size = VARSIZE_ANY_EXHDR(value), buildings_size;
+	const char *buildings = VARDATA_ANY(value) + sizeof(state_image);
 	state_image image;
 	ty_state *s;
 
 	if (size < sizeof(image))
 		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION), errmsg("a typify state is truncated"));
-	memcpy(&image, at, sizeof(image));
-	if (!is_sound(&image, size))
-		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION),
-				errmsg("a typify state is from another version, or broken"));
-	s = ty_state_new(CurrentMemoryContext, &image.parameters, image.srid, image.metres_per_unit);
-	ty_state_reserve(s, image.count);
-	memcpy(s->buildings, at + sizeof(image), image.count * sizeof(ty_building));
-	s->count = image.count;
+	memcpy(&image, VARDATA_ANY(value), sizeof(image));
+	if (image.magic != STATE_MAGIC || image.building_size != sizeof(ty_building) || image.count == 0 ||
+		image.count > TY_MAX_VERTICES)
+		refuse_image();
+	buildings_size = image.count * sizeof(ty_building);
+	size -= sizeof(image);
+	if (size < buildings_size || size - buildings_size < image.barriers_size)
+		refuse_image();
+	s = ty_state_new(CurrentMemoryContext, &image.parameters, image.srid, image.metres_per_unit, image.geometry_type);
+	ty_state_append(s, (const ty_building *) buildings, image.count);
+	if (!read_outlines(s, image.outlines, buildings + buildings_size, size - buildings_size - image.barriers_size))
+		refuse_image();
 	if (image.barriers_size > 0)
 		s->barriers =
 			ty_keep_barriers(palloc0(sizeof(ty_barrier_cache)), CurrentMemoryContext, image.parameters.barriers,
-							 at + size - image.barriers_size, image.barriers_size, false);
+							 buildings + size - image.barriers_size, image.barriers_size, false);
 	return s;
 }
