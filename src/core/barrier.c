@@ -421,39 +421,46 @@ typedef struct edge
 	const ty_barrier_segment *segments;
 	size_t count; /* of all segments */
 	ty_position a, b;
+	ty_position via; /* a place near the edge, over which the way from a to b leads as well; else a or b */
+	int64_t near;	 /* twice the area of a triangle over the edge as high as a line that the way over it may meet */
 	ty_position low, high;
 	ty_box box;
 } edge;
 
-/* the side of the line from a to b that p lies on, where a and b count as moved */
 static inline bool
-is_left_of_edge(const edge *e, ty_position p)
+is_left(int64_t turn, ty_position from, ty_position to, bool line_is_moved)
 {
-	int64_t turn = ty_orientation(e->a, e->b, p);
-
 	if (turn != 0)
 		return turn > 0;
-	return side_of_move((int64_t) e->b.x - e->a.x, (int64_t) e->b.y - e->a.y) < 0;
+	return (side_of_move((int64_t) to.x - from.x, (int64_t) to.y - from.y) > 0) != line_is_moved;
+}
+
+/* whether the segment lies between two places; to_a, to_b: how its ends turn from the line through them */
+static inline bool
+lies_between(const ty_barrier_segment *s, ty_position p, ty_position q, int64_t to_a, int64_t to_b)
+{
+	return is_left(to_a, p, q, true) != is_left(to_b, p, q, true) &&
+		   is_left(ty_orientation(s->a, s->b, p), s->a, s->b, false) !=
+			   is_left(ty_orientation(s->a, s->b, q), s->a, s->b, false);
 }
 
 static inline bool
-is_left_of_segment(const ty_barrier_segment *s, ty_position moved)
+lies_on_way(const ty_barrier_segment *s, ty_position p, ty_position q)
 {
-	int64_t turn = ty_orientation(s->a, s->b, moved);
-
-	if (turn != 0)
-		return turn > 0;
-	return side_of_move((int64_t) s->b.x - s->a.x, (int64_t) s->b.y - s->a.y) > 0;
+	return !ty_same_position(p, q) && lies_between(s, p, q, ty_orientation(p, q, s->a), ty_orientation(p, q, s->b));
 }
 
 static inline bool
-crosses(const edge *e, const ty_barrier_segment *s)
+bars(const edge *e, const ty_barrier_segment *s)
 {
-	return is_left_of_edge(e, s->a) != is_left_of_edge(e, s->b) &&
-		   is_left_of_segment(s, e->a) != is_left_of_segment(s, e->b);
+	int64_t to_a = ty_orientation(e->a, e->b, s->a), to_b = ty_orientation(e->a, e->b, s->b);
+
+	if ((to_a > e->near && to_b > e->near) || (to_a < -e->near && to_b < -e->near))
+		return false;
+	return lies_between(s, e->a, e->b, to_a, to_b) || lies_on_way(s, e->a, e->via) || lies_on_way(s, e->via, e->b);
 }
 
-/* the ends of the interval of dx * y - dy * x over a box, less that of the edge: both of one sign where it is aside */
+/* Whether a box holds a place near the line of the edge, by what dx * y - dy * x comes to in its corners. */
 static inline bool
 edge_may_meet(const void *context, const ty_box *box)
 {
@@ -468,10 +475,10 @@ edge_may_meet(const void *context, const ty_box *box)
 	high_x = (int64_t) (dy > 0 ? box->low_x : box->high_x) - e->a.x;
 	low_y = (int64_t) (dx > 0 ? box->low_y : box->high_y) - e->a.y;
 	high_y = (int64_t) (dx > 0 ? box->high_y : box->low_y) - e->a.y;
-	return dx * low_y - dy * low_x <= 0 && dx * high_y - dy * high_x >= 0;
+	return dx * low_y - dy * low_x <= e->near && dx * high_y - dy * high_x >= -e->near;
 }
 
-/* Eight segments; false, which ends the search, when the edge crosses one. */
+/* Eight segments; false, which ends the search, when one lies on the edge or on the way. */
 static inline bool
 edge_passes(void *context, size_t thing)
 {
@@ -483,22 +490,36 @@ edge_passes(void *context, size_t thing)
 		const ty_barrier_segment *s = &e->segments[i];
 
 		if (most(s->a.x, s->b.x) >= e->low.x && least(s->a.x, s->b.x) <= e->high.x &&
-			most(s->a.y, s->b.y) >= e->low.y && least(s->a.y, s->b.y) <= e->high.y && crosses(e, s))
+			most(s->a.y, s->b.y) >= e->low.y && least(s->a.y, s->b.y) <= e->high.y && bars(e, s))
 			return false;
 	}
 	return true;
 }
 
-bool
-ty_barriers_cross(const ty_barriers *barriers, ty_position a, ty_position b)
+static int64_t
+magnitude(int64_t v)
 {
-	edge e = {.segments = barriers->segments, .count = barriers->count, .a = a, .b = b};
+	return v < 0 ? -v : v;
+}
+
+bool
+ty_barriers_bar(const ty_barriers *barriers, ty_position a, ty_position b, ty_position merged)
+{
+	edge e = {.segments = barriers->segments, .count = barriers->count, .a = a, .b = b, .via = merged};
 
 	if (barriers->count == 0 || ty_same_position(a, b))
 		return false;
-	/* a move by an infinitesimal reaches no whole number: nothing beyond the box of the ends is met */
-	e.low = (ty_position){least(a.x, b.x), least(a.y, b.y)};
-	e.high = (ty_position){most(a.x, b.x), most(a.y, b.y)};
+	/* a place off the edge by a cell in either coordinate turns by no more than half of this */
+	e.near = 2 * (magnitude((int64_t) b.x - a.x) + magnitude((int64_t) b.y - a.y));
+	/* a move by an infinitesimal reaches no whole number: nothing beyond the box of the places is met */
+	e.low = (ty_position){least(least(a.x, b.x), merged.x), least(least(a.y, b.y), merged.y)};
+	e.high = (ty_position){most(most(a.x, b.x), merged.x), most(most(a.y, b.y), merged.y)};
 	e.box = ty_box_of(e.low.x, e.low.y, e.high.x, e.high.y);
 	return !ty_boxes_search(&barriers->boxes, edge_may_meet, edge_passes, &e);
+}
+
+bool
+ty_barriers_cross(const ty_barriers *barriers, ty_position a, ty_position b)
+{
+	return ty_barriers_bar(barriers, a, b, a);
 }

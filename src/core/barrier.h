@@ -18,6 +18,7 @@
 #include "boxes.h"
 #include "environment.h"
 #include "grid.h"
+#include "influence.h"
 #include "measure.h"
 
 /* points of one line that follow one another; their coordinates stay with the caller */
@@ -71,13 +72,13 @@ typedef struct ty_barrier_segment
 	ty_position a, b; /* they differ; a little outside of the grid where the line goes on */
 } ty_barrier_segment;
 
-typedef struct ty_barriers
+struct ty_barriers
 {
 	const ty_environment *env;
 	size_t count, capacity;
 	ty_barrier_segment *segments;
 	ty_boxes boxes; /* of TY_BOX_FAN segments each */
-} ty_barriers;
+};
 
 /*
  * Brings those lines onto the grid that come near the box of the n >= 1 positions: ends are snapped as buildings are;
@@ -90,6 +91,12 @@ void ty_barriers_free(ty_barriers *barriers);
 
 /* Whether a barrier lies between two places; the same either way, and false for one place. Exact. */
 bool ty_barriers_cross(const ty_barriers *barriers, ty_position a, ty_position b);
+
+/*
+ * Whether one lies between a and b, between a and merged, or between merged and b, where merged is on the edge from a to
+ * b but for a cell in either coordinate. Exact. As influences want it (influence.h).
+ */
+bool ty_barriers_bar(const ty_barriers *barriers, ty_position a, ty_position b, ty_position merged);
 
 /* ---- on the ground ---- */
 

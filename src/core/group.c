@@ -313,7 +313,7 @@ collapse_group(const ty_environment *env, const group *g, const ty_input *input,
 	if (input->barriers != NULL)
 	{
 		status = ty_barriers_fit(env, input->barriers, &g->grid, g->position, input->n, &barriers);
-		influence.crosses = ty_barriers_cross;
+		influence.crosses = ty_barriers_bar;
 		influence.barriers = &barriers;
 		influenced = barriers.count > 0;
 	}
