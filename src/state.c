@@ -16,8 +16,8 @@
 
 /*
  * A state as it travels between the processes of one parallel query: this header, then the buildings, then the
- * outlines, each behind the number of its building. Both sides run the same library on the same machine, so values
- * are copied as they are.
+ * outlines, each behind the number of its building, then the geometry of barriers that are not constant for the query.
+ * Both sides run the same library on the same machine, so values are copied as they are.
  */
 typedef struct state_image
 {
@@ -26,11 +26,12 @@ typedef struct state_image
 	int32 srid;
 	Oid geometry_type;
 	uint64 count, outlines;
+	uint64 barriers_size; /* 0: none, or only their hash */
 	double metres_per_unit;
 	ty_parameters parameters;
 } state_image;
 
-#define STATE_MAGIC 0x54590003 /* the last byte is the version */
+#define STATE_MAGIC 0x54590004 /* the last byte is the version */
 
 /* Makes an empty state in the context. */
 ty_state *
@@ -49,6 +50,7 @@ ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid,
 	s->capacity = FIRST_BUILDINGS;
 	s->buildings = s->first;
 	s->outlines = NULL;
+	s->barriers = NULL;
 	return s;
 }
 
@@ -219,9 +221,12 @@ bytea *
 ty_state_serialize(const ty_state *s)
 {
 	size_t outlines_size, outlines = count_outlines(s, &outlines_size);
-	size_t size = VARHDRSZ + sizeof(state_image) + s->count * sizeof(ty_building) + outlines_size;
+	size_t buildings_size = s->count * sizeof(ty_building);
+	size_t barriers_size = s->barriers == NULL || s->barriers->constant ? 0 : s->barriers->size;
+	size_t size = VARHDRSZ + sizeof(state_image) + buildings_size + outlines_size + barriers_size;
 	state_image image;
 	bytea *value;
+	char *at;
 
 	if (!AllocSizeIsValid(size))
 		ereport(ERROR, errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
@@ -233,18 +238,21 @@ ty_state_serialize(const ty_state *s)
 	image.srid = s->srid;
 	image.count = s->count;
 	image.outlines = outlines;
+	image.barriers_size = barriers_size;
 	image.metres_per_unit = s->metres_per_unit;
 	image.geometry_type = s->geometry_type;
 	image.parameters = s->parameters;
 	value = palloc(size);
 	SET_VARSIZE(value, size);
-	memcpy(VARDATA(value), &image, sizeof(image));
-	memcpy(VARDATA(value) + sizeof(image), s->buildings, s->count * sizeof(ty_building));
-	write_outlines(s, VARDATA(value) + sizeof(image) + s->count * sizeof(ty_building));
+	at = VARDATA(value);
+	memcpy(at, &image, sizeof(image));
+	memcpy(at + sizeof(image), s->buildings, buildings_size);
+	write_outlines(s, at + sizeof(image) + buildings_size);
+	if (barriers_size > 0)
+		memcpy(at + size - VARHDRSZ - barriers_size, s->barriers->payload, barriers_size);
 	return value;
 }
 
-/* Makes the state in the current context; nothing of the value is kept. */
 static void
 refuse_image(void)
 {
@@ -263,13 +271,20 @@ ty_state_deserialize(bytea *value)
 	if (size < sizeof(image))
 		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION), errmsg("a typify state is truncated"));
 	memcpy(&image, VARDATA_ANY(value), sizeof(image));
-	buildings_size = image.count * sizeof(ty_building);
 	if (image.magic != STATE_MAGIC || image.building_size != sizeof(ty_building) || image.count == 0 ||
-		image.count > TY_MAX_VERTICES || size - sizeof(image) < buildings_size)
+		image.count > TY_MAX_VERTICES)
+		refuse_image();
+	buildings_size = image.count * sizeof(ty_building);
+	size -= sizeof(image);
+	if (size < buildings_size || size - buildings_size < image.barriers_size)
 		refuse_image();
 	s = ty_state_new(CurrentMemoryContext, &image.parameters, image.srid, image.metres_per_unit, image.geometry_type);
 	ty_state_append(s, (const ty_building *) buildings, image.count);
-	if (!read_outlines(s, image.outlines, buildings + buildings_size, size - sizeof(image) - buildings_size))
+	if (!read_outlines(s, image.outlines, buildings + buildings_size, size - buildings_size - image.barriers_size))
 		refuse_image();
+	if (image.barriers_size > 0)
+		s->barriers =
+			ty_keep_barriers(palloc0(sizeof(ty_barrier_cache)), CurrentMemoryContext, image.parameters.barriers,
+							 buildings + size - image.barriers_size, image.barriers_size, false);
 	return s;
 }

@@ -310,6 +310,30 @@ take_keys(group *g)
 	return keys;
 }
 
+/* The merge sequence, under what weighs edges besides their lengths. */
+static ty_status
+collapse_group(const ty_environment *env, group *g, const ty_input *input, ty_sequence *sequence)
+{
+	ty_barriers barriers = {.env = env};
+	ty_influence influence = {0};
+	ty_status status = TY_OK;
+	bool influenced = false;
+
+	if (input->barriers != NULL)
+	{
+		status = ty_barriers_fit(env, input->barriers, &g->grid, g->position, input->n, &barriers);
+		influence.crosses = ty_barriers_bar;
+		influence.barriers = &barriers;
+		influenced = barriers.count > 0;
+	}
+	if (status == TY_OK)
+		status = ty_collapse_keyed(env, g->position, take_keys(g), input->n, g->parameters->s_u,
+								   influenced ? &influence : NULL, find_stop(g, input->n), false, NULL, NULL,
+								   sequence);
+	ty_barriers_free(&barriers);
+	return status;
+}
+
 ty_status
 ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result)
 {
@@ -328,8 +352,7 @@ ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters 
 	g.scale = fit_area_scale(buildings, n);
 	status = order_group(env, &g, n);
 	if (status == TY_OK)
-		status = ty_collapse_keyed(env, g.position, take_keys(&g), n, p->s_u, NULL, find_stop(&g, n), false, NULL, NULL,
-								   &sequence);
+		status = collapse_group(env, &g, input, &sequence);
 	if (status == TY_OK)
 		status = cut_and_describe(env, &g, &sequence, n, result);
 	ty_sequence_free(env, &sequence);

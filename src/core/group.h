@@ -4,6 +4,7 @@
 #ifndef TY_GROUP_H
 #define TY_GROUP_H
 
+#include "barrier.h"
 #include "environment.h"
 #include "measure.h"
 #include "outline.h"
@@ -16,6 +17,7 @@ typedef struct ty_input
 	size_t n;					  /* >= 1 */
 	/* [n] those with which placeholders are drawn, NULL for a building that has none; or NULL as a whole */
 	ty_outline *const *outlines;
+	const ty_barrier_lines *barriers; /* NULL: none */
 } ty_input;
 
 typedef struct ty_placeholder
