@@ -92,8 +92,8 @@ LLVMFuzzerTestOneInput(const unsigned char *data, size_t size)
 	}
 	for (size_t i = 0; i < in.n; i++)
 		moved[i] = in.position[i];
-	if (ty_collapse(&ty_plain_environment, moved, in.n, in.s_u, NULL, in.stop, true, check_after_merge, NULL, &sequence) !=
-		TY_OK)
+	if (ty_collapse(&ty_plain_environment, moved, in.n, in.s_u, NULL, in.stop, true, check_after_merge, NULL,
+					&sequence) != TY_OK)
 		give_up("no success");
 	ty_sequence_free(&ty_plain_environment, &sequence);
 	return 0;
