@@ -14,21 +14,21 @@
 #define FIRST_SIZE 512
 
 /*
- * A state as it travels between the processes of one parallel query: this header, then the buildings. Both sides
- * run the same library on the same machine, so values are copied as they are.
+ * A state as it travels between the processes of one parallel query: this header, then the buildings, then their
+ * importances if there are any. Both sides run the same library on the same machine, so values are copied as they are.
  */
 typedef struct state_image
 {
 	uint32 magic;
 	uint32 building_size;
 	int32 srid;
-	uint32 unused;
+	uint32 has_importance; /* 0 or 1 */
 	uint64 count;
 	double metres_per_unit;
 	ty_parameters parameters;
 } state_image;
 
-#define STATE_MAGIC 0x54590002 /* the last byte is the version */
+#define STATE_MAGIC 0x54590003 /* the last byte is the version */
 
 /* Makes an empty state in the context. */
 ty_state *
@@ -43,6 +43,7 @@ ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid,
 	s->metres_per_unit = metres_per_unit;
 	s->count = s->capacity = 0;
 	s->buildings = NULL;
+	s->importance = NULL;
 	return s;
 }
 
@@ -63,13 +64,41 @@ ty_state_reserve(ty_state *s, size_t more)
 	else
 		s->buildings = repalloc_huge(s->buildings, size);
 	s->capacity = size / sizeof(ty_building);
+	if (s->importance != NULL)
+		s->importance = repalloc_huge(s->importance, s->capacity * sizeof(double));
 }
 
+/* Room for importances, those of the buildings that are there being 1. */
 static void
-ty_state_append(ty_state *s, const ty_building *buildings, size_t count)
+begin_importance(ty_state *s)
+{
+	if (s->importance != NULL)
+		return;
+	s->importance = MemoryContextAllocHuge(s->context, s->capacity * sizeof(double));
+	for (size_t i = 0; i < s->count; i++)
+		s->importance[i] = 1;
+}
+
+void
+ty_state_set_importance(ty_state *s, double importance)
+{
+	if (importance != 1)
+		begin_importance(s);
+	if (s->importance != NULL)
+		s->importance[s->count - 1] = importance;
+}
+
+/* importance: NULL where all are 1 */
+static void
+append(ty_state *s, const ty_building *buildings, const double *importance, size_t count)
 {
 	ty_state_reserve(s, count);
+	if (importance != NULL)
+		begin_importance(s);
 	memcpy(s->buildings + s->count, buildings, count * sizeof(ty_building));
+	if (s->importance != NULL)
+		for (size_t i = 0; i < count; i++)
+			s->importance[s->count + i] = importance == NULL ? 1 : importance[i];
 	s->count += count;
 }
 
@@ -87,14 +116,22 @@ ty_state_merge(ty_state *a, const ty_state *b)
 	ty_state_check_srid(a, b->srid);
 	if (!ty_same_parameters(&a->parameters, &b->parameters))
 		ty_refuse_varying_parameters();
-	ty_state_append(a, b->buildings, b->count);
+	append(a, b->buildings, b->importance, b->count);
+}
+
+/* what of a state comes after the header */
+static size_t
+size_of_rows(uint64 count, bool has_importance)
+{
+	return count * (sizeof(ty_building) + (has_importance ? sizeof(double) : 0));
 }
 
 /* In the current context; an error where a bytea cannot hold it. */
 bytea *
 ty_state_serialize(const ty_state *s)
 {
-	size_t size = VARHDRSZ + sizeof(state_image) + s->count * sizeof(ty_building);
+	size_t size = VARHDRSZ + sizeof(state_image) + size_of_rows(s->count, s->importance != NULL);
+	char *rows;
 	state_image image;
 	bytea *value;
 
@@ -106,13 +143,17 @@ ty_state_serialize(const ty_state *s)
 	image.magic = STATE_MAGIC;
 	image.building_size = sizeof(ty_building);
 	image.srid = s->srid;
+	image.has_importance = s->importance != NULL;
 	image.count = s->count;
 	image.metres_per_unit = s->metres_per_unit;
 	image.parameters = s->parameters;
 	value = palloc(size);
 	SET_VARSIZE(value, size);
 	memcpy(VARDATA(value), &image, sizeof(image));
-	memcpy(VARDATA(value) + sizeof(image), s->buildings, s->count * sizeof(ty_building));
+	rows = VARDATA(value) + sizeof(image);
+	memcpy(rows, s->buildings, s->count * sizeof(ty_building));
+	if (s->importance != NULL)
+		memcpy(rows + s->count * sizeof(ty_building), s->importance, s->count * sizeof(double));
 	return value;
 }
 
@@ -121,6 +162,7 @@ ty_state *
 ty_state_deserialize(bytea *value)
 {
 	size_t size = VARSIZE_ANY_EXHDR(value);
+	const char *rows = VARDATA_ANY(value) + sizeof(state_image);
 	state_image image;
 	ty_state *s;
 
@@ -128,12 +170,18 @@ ty_state_deserialize(bytea *value)
 		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION), errmsg("a typify state is truncated"));
 	memcpy(&image, VARDATA_ANY(value), sizeof(image));
 	if (image.magic != STATE_MAGIC || image.building_size != sizeof(ty_building) || image.count == 0 ||
-		image.count > TY_MAX_VERTICES || size - sizeof(image) != image.count * sizeof(ty_building))
+		image.count > TY_MAX_VERTICES || image.has_importance > 1 ||
+		size - sizeof(image) != size_of_rows(image.count, image.has_importance))
 		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION),
 				errmsg("a typify state is from another version, or broken"));
 	s = ty_state_new(CurrentMemoryContext, &image.parameters, image.srid, image.metres_per_unit);
 	ty_state_reserve(s, image.count);
-	memcpy(s->buildings, VARDATA_ANY(value) + sizeof(image), image.count * sizeof(ty_building));
+	memcpy(s->buildings, rows, image.count * sizeof(ty_building));
+	if (image.has_importance)
+	{
+		begin_importance(s);
+		memcpy(s->importance, rows + image.count * sizeof(ty_building), image.count * sizeof(double));
+	}
 	s->count = image.count;
 	return s;
 }

@@ -17,6 +17,7 @@ typedef struct ty_state
 	double metres_per_unit; /* of the SRID */
 	size_t count, capacity;
 	ty_building *buildings;
+	double *importance; /* of the buildings; NULL as long as all are 1 */
 } ty_state;
 
 /* Makes an empty state in the context. */
@@ -25,6 +26,9 @@ extern ty_state *ty_state_new(MemoryContext context, const ty_parameters *parame
 
 /* Room for more buildings behind the last one. */
 extern void ty_state_reserve(ty_state *s, size_t more);
+
+/* Sets the importance of the last building, which is 1 otherwise. */
+extern void ty_state_set_importance(ty_state *s, double importance);
 
 /* Raises the error of two SRIDs in a group where the state's is another. */
 extern void ty_state_check_srid(const ty_state *s, int32 srid);

@@ -13,29 +13,35 @@ typedef struct ty_input
 {
 	const ty_building *buildings; /* [n] in any order */
 	size_t n;					  /* >= 1 */
+	/*
+	 * [n] >= 1, INFINITY: kept (spec 2.5); NULL: all 1. Buildings that are the same in all else, id included, should
+	 * have the same, or which of them has which is not a matter of the set alone.
+	 */
+	const double *importance;
 } ty_input;
 
 typedef struct ty_placeholder
 {
-	double x, y; /* the vertex, ground units; of a single building its very centroid, off the grid */
+	double x, y; /* the vertex, ground units; of a single or kept building its very centroid, off the grid */
 	double area; /* what is drawn, ground units; 0: no size, not drawn */
 	double width, length;
 	double ratio;			 /* width / length; of the representative unless min_side changed it, 1 for squares */
 	double ux, uy;			 /* of the representative */
 	uint32_t representative; /* index into the caller's buildings */
 	uint32_t first, count;	 /* members: ty_result.members[first .. first + count) */
+	bool kept;				 /* the representative is kept: in place, with its own area */
 } ty_placeholder;
 
 typedef struct ty_result
 {
 	size_t count;
 	ty_placeholder *placeholders; /* [count] in canonical order: by smallest rank of the members */
-	uint32_t *members;			  /* [n] indices into the caller's buildings, by placeholder, then by rank */
-	size_t undrawn;				  /* placeholders without size */
+	uint32_t *members; /* [n] indices into the caller's buildings, by placeholder, then by rank, sheds last */
+	size_t undrawn;	   /* placeholders without size; one of sheds alone has none and does not count */
 } ty_result;
 
 /*
- * The whole way of one group: canonical order, mesh, collapse, cut, placeholders.
+ * The whole way of one group: canonical order, mesh, collapse, cut, placeholders; sheds (shed.h) join those.
  * Lengths of p are ground units (ty_bring_to_ground).
  * The result's arrays come from env; ty_result_free gives them back. TY_NOT_FINITE when a sum of areas overflows.
  */

@@ -33,9 +33,9 @@ typedef struct ty_influence
 } ty_influence;
 
 /*
- * What importances weigh: whole multiples of 2^-exponent, so fine that the sum over the group stays just below 2^62 (for
- * a million buildings 41 bits for the largest). Sums of them are exact. An importance below the unit counts as one
- * unit; a kept building's weight is never used.
+ * What importances weigh: whole multiples of 2^-exponent, so fine that the sum over the group stays just below 2^62
+ * (for a million buildings 41 bits for the largest). Sums of them are exact. An importance below the unit counts as
+ * one unit; a kept building's weight is never used.
  */
 int ty_weight_exponent(const double *importance, size_t n);
 int64_t ty_weight(double importance, int exponent);
