@@ -211,7 +211,10 @@ static inline __attribute__((always_inline)) void
 fetch_ahead(const group *g, const ty_result *result, const ty_placeholder *p, size_t n)
 {
 	for (size_t i = p->first + AHEAD; i < (size_t) p->first + p->count + AHEAD && i < n; i++)
+	{
 		__builtin_prefetch(&g->buildings[result->members[i]]);
+		__builtin_prefetch(&g->buildings[result->members[i]].uy); /* mostly in the next cache line */
+	}
 }
 
 /* Fills in a placeholder whose members are known. rank: the smallest of them, where the vertex is kept. */
