@@ -43,8 +43,10 @@ COMMENT ON COLUMN typify_options.shape IS
 'rectangle (default, paper: ratio and direction of the representative), square (of equal area), footprint or auto (both not supported yet).';
 COMMENT ON COLUMN typify_options.min_area IS
 'A smaller building adds nothing to count, position or mean. Square units of the SRID. Not supported yet, except 0 (off).';
-COMMENT ON COLUMN typify_options.min_side IS 'Shortest side of a placeholder, mm on the map. Not supported yet.';
-COMMENT ON COLUMN typify_options.max_area IS 'Largest area that a placeholder grows to, mm2 on the map. Not supported yet.';
+COMMENT ON COLUMN typify_options.min_side IS 
+'Shortest side of a placeholder, mm on the map (usual: 0.35); 0 is none. A shorter side is enlarged to it; the long side is then at least min(1 / ratio, 1.5) times as long, and of a placeholder of several members the ratio is at least 1/3. Points and lines get this size too.';
+COMMENT ON COLUMN typify_options.max_area IS 
+'Largest area that a placeholder is enlarged to, mm2 on the map; one that is larger by the unscaled statistic of its members'' areas keeps that. Default 2 * min_side^2 where min_side is set; 0 is no limit.';
 COMMENT ON COLUMN typify_options.keep_area IS 'Buildings as large as this on the map keep their size, mm2. Not supported yet.';
 COMMENT ON COLUMN typify_options.min_gap IS 'Smallest gap between placeholders, mm on the map. Not supported yet.';
 COMMENT ON COLUMN typify_options.alignment IS

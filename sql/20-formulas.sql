@@ -39,3 +39,20 @@ LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE;
 
 COMMENT ON FUNCTION typify_rectangle(geometry, double precision, double precision, double precision) IS
 'A rectangle as typify draws it: POLYGON around center (a POINT, whose SRID it takes; NULL when it is EMPTY), of this area (square units of the SRID, above 0), ratio of the shorter to the longer side (above 0, at most 1) and orientation of the longer side (degrees counter-clockwise from the x axis). Errors: 22023 for other values, for a center that is no point, and for a geographic SRID.';
+
+CREATE FUNCTION typify_metres_per_unit(srid integer) RETURNS double precision
+LANGUAGE sql STABLE STRICT PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT coalesce((
+		SELECT CASE
+			WHEN proj4text ~ '\+proj=(longlat|latlong)' THEN 'NaN'::double precision
+			WHEN proj4text ~ '\+to_meter=[0-9.]+'
+				THEN substring(proj4text FROM '\+to_meter=([0-9.]+)')::double precision
+			WHEN proj4text ~ '\+units=us-ft' THEN 1200 / 3937.0
+			WHEN proj4text ~ '\+units=ft' THEN 0.3048
+			WHEN proj4text ~ '\+units=km' THEN 1000
+			ELSE 1 END
+		FROM spatial_ref_sys AS ref WHERE ref.srid = typify_metres_per_unit.srid), 1);
+END;
+COMMENT ON FUNCTION typify_metres_per_unit(integer) IS
+'Metres in a unit of a reference system: 0.3048 for feet, 1 where it is not known, NaN for degrees';

@@ -46,6 +46,17 @@ END;
 COMMENT ON FUNCTION typify_options_with(typify_options, double precision, double precision, bigint) IS
 'Options with another exponent, psi and count; NULL unsets one. Errors: as of typify_options.';
 
+CREATE FUNCTION typify_options_without_sizes(options typify_options)
+RETURNS typify_options
+LANGUAGE sql IMMUTABLE PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT typify_options((options).source_scale, (options).lod200_scale, (options).exponent, (options).psi,
+		(options).count, (options).min_distance, (options).count_rule, (options).area_statistic, (options).shape,
+		(options).min_area, alignment => (options).alignment, barriers => (options).barriers);
+END;
+COMMENT ON FUNCTION typify_options_without_sizes(typify_options) IS
+'Options without those that make a map legible (min_side, max_area, keep_area, min_gap, barrier_width): sizes are calibrated as the area factor alone makes them. Errors: as of typify_options.';
+
 CREATE FUNCTION typify_check_parameters(scale double precision, s_u double precision, options typify_options)
 RETURNS void
 LANGUAGE sql IMMUTABLE PARALLEL SAFE
@@ -138,8 +149,8 @@ DECLARE
 	probes typify_calibration[];
 BEGIN
 	SELECT array_agg(ROW(l.grp, l.n25, l.n200, l.mean_area25, NULL, l.mean_area200, l.exponent, 0,
-		typify_options_with(l.options, l.exponent, 0, coalesce(counts[ordinality], (l.options).count)), l.calibrated,
-		l.overall)::typify_calibration)
+		typify_options_with(typify_options_without_sizes(l.options), l.exponent, 0,
+			coalesce(counts[ordinality], (l.options).count)), l.calibrated, l.overall)::typify_calibration)
 	INTO probes
 	FROM unnest(levels) WITH ORDINALITY AS l
 	WHERE measured IS NULL OR measured[ordinality];

@@ -154,27 +154,6 @@ $$;
 COMMENT ON FUNCTION typify_layer_call(jsonb, text, text) IS
 'SQL that calls typify_derive, or typify_plan, which has the same arguments, as the definition of a layer says; groups: SQL for the argument of that name. Options are written as a call of typify_options with those that are set, so that the definition of a materialized view outlives new options. Error 42P01 when a table from which the layer is derived is there no more.';
 
-CREATE FUNCTION typify_layer_geometry(relation regclass, column_name name) RETURNS text
-LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
-SET search_path FROM CURRENT AS
-$$
-DECLARE
-	geom text := typify_column_name(relation, column_name, 'geometry', 'geom_column');
-	srid integer;
-BEGIN
-	SELECT postgis_typmod_srid(atttypmod) INTO srid FROM pg_attribute
-	WHERE attrelid = relation AND attname = column_name AND atttypmod >= 0;
-	IF coalesce(srid, 0) = 0 THEN
-		EXECUTE format('SELECT ST_SRID(%1$s) FROM %2$s WHERE %1$s IS NOT NULL LIMIT 1', geom,
-			typify_table_name(relation, 'lod25')) INTO srid;
-	END IF;
-	RETURN format('geometry(Polygon, %s)', coalesce(srid, 0));
-END
-$$;
-
-COMMENT ON FUNCTION typify_layer_geometry(regclass, name) IS
-'The type of the geometry column of a layer derived from this column: polygons with the SRID that the column says or, where it says none, of the first geometry in it. Errors: as of typify_column_name.';
-
 CREATE FUNCTION typify_layer_create_table(layer text, definition json, geom_type text) RETURNS regclass
 LANGUAGE plpgsql
 SET search_path FROM CURRENT AS
@@ -238,6 +217,16 @@ END;
 COMMENT ON FUNCTION typify_layer_source(jsonb, text[]) IS
 'The sub-select of the buildings from which a layer is derived, at least of these groups (see typify_lod25_source).';
 
+CREATE FUNCTION typify_layer_geometry(definition jsonb) RETURNS text
+LANGUAGE sql STABLE PARALLEL RESTRICTED
+BEGIN ATOMIC
+	SELECT format('geometry(Polygon, %s)', coalesce(typify_source_srid(typify_layer_source(definition),
+		(definition->>'lod25')::regclass, (definition->>'geom_column')::name, 'lod25'), 0));
+END;
+
+COMMENT ON FUNCTION typify_layer_geometry(jsonb) IS
+'The type of the geometry column of a layer: polygons with the SRID of the buildings it is derived from. Errors: as of typify_source_srid and typify_lod25_source.';
+
 CREATE FUNCTION typify_layer_shares(definition jsonb) RETURNS jsonb
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
@@ -276,22 +265,22 @@ END;
 COMMENT ON FUNCTION typify_layer_share_rows(jsonb) IS
 'What typify_layer_shares found, as rows; key: as of typify_group_key.';
 
-CREATE FUNCTION typify_layer_shares_index(layer regclass) RETURNS regclass
+CREATE FUNCTION typify_layer_index(layer regclass, column_name name) RETURNS regclass
 LANGUAGE sql STABLE PARALLEL SAFE
 BEGIN ATOMIC
 	SELECT min(indexrelid)::regclass FROM pg_index JOIN pg_attribute ON attrelid = indrelid AND attnum = indkey[0]
-	WHERE indrelid = layer AND indnatts = 1 AND attname = 'grp';
+	WHERE indrelid = layer AND indnatts = 1 AND attname = column_name;
 END;
 
-COMMENT ON FUNCTION typify_layer_shares_index(regclass) IS
-'The index on grp of a table layer, whose comment keeps the shares of LOD200; NULL when it was dropped.';
+COMMENT ON FUNCTION typify_layer_index(regclass, name) IS
+'The index of a layer on this column alone; NULL when there is none. The comment of the one on grp keeps the shares of LOD200.';
 
 CREATE FUNCTION typify_layer_keep_shares(layer regclass, kept jsonb) RETURNS void
 LANGUAGE plpgsql
 SET search_path FROM CURRENT AS
 $$
 DECLARE
-	index regclass := typify_layer_shares_index(layer);
+	index regclass := typify_layer_index(layer, 'grp');
 BEGIN
 	IF index IS NOT NULL AND kept IS DISTINCT FROM typify_layer_comment(index) THEN
 		EXECUTE format('COMMENT ON INDEX %s IS %L', index, kept);
@@ -329,8 +318,7 @@ BEGIN
 	SELECT json_object_agg(key, value) INTO definition
 	FROM json_each(obj_description(layer, 'pg_class')::json) WHERE key <> 'finished';
 	EXECUTE format('COMMENT ON %s %s IS %L', kind, name, definition);
-	IF NOT EXISTS (SELECT FROM pg_index JOIN pg_attribute ON attrelid = indrelid AND attnum = indkey[0]
-			WHERE indrelid = layer AND attname = 'geom') THEN
+	IF typify_layer_index(layer, 'geom') IS NULL THEN
 		EXECUTE format('CREATE INDEX ON %s USING gist (geom)', name);
 	END IF;
 	EXECUTE format('ANALYZE %s', name);
@@ -347,7 +335,7 @@ $$
 DECLARE
 	layer_name text := typify_layer_name(caller_schema, name);
 	layer regclass := to_regclass(layer_name);
-	geom_type text := typify_layer_geometry((definition->>'lod25')::regclass, (definition->>'geom_column')::name);
+	geom_type text := typify_layer_geometry(definition::jsonb);
 	source text;
 BEGIN
 	IF kind IS NULL THEN
@@ -449,7 +437,7 @@ $$
 DECLARE
 	definition jsonb := typify_layer(name);
 	layer text := typify_table_name(name, 'name');
-	before jsonb := typify_layer_comment(typify_layer_shares_index(name))->'lod200';
+	before jsonb := typify_layer_comment(typify_layer_index(name, 'grp'))->'lod200';
 	now jsonb;
 	moved text[];
 BEGIN
@@ -544,7 +532,7 @@ BEGIN
 		-- two calls that build the same layer at the same time take turns
 		EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
 		there := typify_layer_comment(layer);
-		kept := typify_layer_comment(typify_layer_shares_index(layer));
+		kept := typify_layer_comment(typify_layer_index(layer, 'grp'));
 	END IF;
 	IF batch IS NULL THEN
 		PERFORM typify_refuse_null('batch');
@@ -561,7 +549,7 @@ BEGIN
 		SELECT json_object_agg(key, value) INTO definition
 		FROM (SELECT key, value FROM json_each(definition) UNION ALL SELECT 'finished', 'false') AS pair;
 		layer := typify_layer_create_table(layer_name, definition,
-			typify_layer_geometry((definition->>'lod25')::regclass, (definition->>'geom_column')::name));
+			typify_layer_geometry(definition::jsonb));
 	END IF;
 	current := jsonb_build_object('state', typify_layer_state(definition::jsonb))
 		|| CASE WHEN typify_layer_is_calibrated(definition::jsonb)
@@ -598,7 +586,7 @@ BEGIN
 	-- two calls that build the same layer at the same time take turns, and neither repeats what the other did
 	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
 	definition := typify_layer(layer);
-	plan := typify_layer_comment(typify_layer_shares_index(layer))->'plan';
+	plan := typify_layer_comment(typify_layer_index(layer, 'grp'))->'plan';
 	base := jsonb_populate_record(base, nullif(definition->'options', 'null'));
 	EXECUTE format('SELECT array_agg(grp) FROM (SELECT one->>0 AS grp '
 			'FROM jsonb_array_elements($1) WITH ORDINALITY AS one (one, place) WHERE place BETWEEN $2 AND $3) AS todo '
@@ -630,7 +618,7 @@ $$
 BEGIN
 	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
 	PERFORM typify_layer_keep_shares(layer,
-		nullif(typify_layer_comment(typify_layer_shares_index(layer)) - 'plan' - 'state', '{}'));
+		nullif(typify_layer_comment(typify_layer_index(layer, 'grp')) - 'plan' - 'state', '{}'));
 	PERFORM typify_layer_finish(layer);
 END
 $$;

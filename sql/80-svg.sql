@@ -3,23 +3,6 @@
 -- Lengths inside a picture are millimetres on paper. Panels and pictures on a sheet are nested <svg>
 -- elements: each clips to its own box and needs no ids. Text is ASCII but for what the caller hands in.
 
-CREATE FUNCTION typify_metres_per_unit(srid integer) RETURNS double precision
-LANGUAGE sql STABLE STRICT PARALLEL SAFE
-BEGIN ATOMIC
-	SELECT coalesce((
-		SELECT CASE
-			WHEN proj4text ~ '\+proj=(longlat|latlong)' THEN 'NaN'::double precision
-			WHEN proj4text ~ '\+to_meter=[0-9.]+'
-				THEN substring(proj4text FROM '\+to_meter=([0-9.]+)')::double precision
-			WHEN proj4text ~ '\+units=us-ft' THEN 1200 / 3937.0
-			WHEN proj4text ~ '\+units=ft' THEN 0.3048
-			WHEN proj4text ~ '\+units=km' THEN 1000
-			ELSE 1 END
-		FROM spatial_ref_sys AS ref WHERE ref.srid = typify_metres_per_unit.srid), 1);
-END;
-COMMENT ON FUNCTION typify_metres_per_unit(integer) IS
-'Metres in a unit of a reference system: 0.3048 for feet, 1 where it is not known, NaN for degrees';
-
 CREATE FUNCTION typify_svg_number(number double precision) RETURNS text
 LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
 RETURN replace(to_char(number, 'FM999,999,999,999'), ',', ' ');

@@ -1,9 +1,9 @@
 /*
  * aggregate.c - the aggregates typify and typify_placeholders.
  *
- * A state is the measures of a group's buildings, in any order. The transition function measures a row and adds it;
- * combine appends; the final functions put the buildings in canonical order and so give the same answer however
- * the rows came together. A group without a usable row has no state.
+ * The transition function measures a row and adds it to the group's state; combine appends; the final functions put
+ * the buildings in canonical order and so give the same answer however the rows came together. A group without a
+ * usable row has no state.
  */
 #include "compat.h"
 
@@ -24,143 +24,7 @@
 #include "geometry.h"
 #include "options.h"
 #include "progress.h"
-
-/* The array's first size in bytes, good for nine buildings: there may be 100 000 groups of about that many. */
-#define FIRST_SIZE 512
-
-typedef struct state
-{
-	MemoryContext context; /* of the state and its array */
-	ty_parameters parameters;
-	uint64 generation; /* of the call's parameters when they were last found equal to these */
-	int32 srid;
-	size_t count, capacity;
-	ty_building *buildings;
-} state;
-
-/*
- * A state as it travels between the processes of one parallel query: this header, then the buildings. Both sides
- * run the same library on the same machine, so values are copied as they are.
- */
-typedef struct state_image
-{
-	uint32 magic;
-	uint32 building_size;
-	int32 srid;
-	uint32 unused;
-	uint64 count;
-	ty_parameters parameters;
-} state_image;
-
-#define STATE_MAGIC 0x54590001 /* the last byte is the version */
-
-/* --- states --- */
-
-/* Makes an empty state in the context. */
-static state *
-state_new(MemoryContext context, const ty_parameters *parameters, int32 srid)
-{
-	state *s = MemoryContextAlloc(context, sizeof(state));
-
-	s->context = context;
-	s->parameters = *parameters;
-	s->generation = 0;
-	s->srid = srid;
-	s->count = s->capacity = 0;
-	s->buildings = NULL;
-	return s;
-}
-
-/* Room for more buildings. Sizes are powers of two: that is what a memory context hands out anyway. */
-static void
-state_reserve(state *s, size_t more)
-{
-	size_t size = FIRST_SIZE;
-
-	if (more <= s->capacity - s->count)
-		return;
-	if (more > TY_MAX_VERTICES - s->count)
-		ty_check_status(TY_TOO_MANY);
-	while (size / sizeof(ty_building) < s->count + more)
-		size *= 2;
-	if (s->buildings == NULL)
-		s->buildings = MemoryContextAllocHuge(s->context, size);
-	else
-		s->buildings = repalloc_huge(s->buildings, size);
-	s->capacity = size / sizeof(ty_building);
-}
-
-static void
-state_append(state *s, const ty_building *buildings, size_t count)
-{
-	state_reserve(s, count);
-	memcpy(s->buildings + s->count, buildings, count * sizeof(ty_building));
-	s->count += count;
-}
-
-static void
-state_check_srid(const state *s, int32 srid)
-{
-	if (unlikely(s->srid != srid))
-		ty_refuse_two_srids(s->srid, srid);
-}
-
-/* Appends a copy of what b holds; b stays as it is. */
-static void
-state_merge(state *a, const state *b)
-{
-	state_check_srid(a, b->srid);
-	if (!ty_same_parameters(&a->parameters, &b->parameters))
-		ty_refuse_varying_parameters();
-	state_append(a, b->buildings, b->count);
-}
-
-/* In the current context; an error where a bytea cannot hold it. */
-static bytea *
-state_serialize(const state *s)
-{
-	size_t size = VARHDRSZ + sizeof(state_image) + s->count * sizeof(ty_building);
-	state_image image;
-	bytea *value;
-
-	if (!AllocSizeIsValid(size))
-		ereport(ERROR, errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
-				errmsg("a group of %zu buildings is too large to pass between parallel processes", s->count),
-				errhint("SET max_parallel_workers_per_gather = 0"));
-	memset(&image, 0, sizeof(image));
-	image.magic = STATE_MAGIC;
-	image.building_size = sizeof(ty_building);
-	image.srid = s->srid;
-	image.count = s->count;
-	image.parameters = s->parameters;
-	value = palloc(size);
-	SET_VARSIZE(value, size);
-	memcpy(VARDATA(value), &image, sizeof(image));
-	memcpy(VARDATA(value) + sizeof(image), s->buildings, s->count * sizeof(ty_building));
-	return value;
-}
-
-/* Makes the state in the current context; nothing of the value is kept. */
-static state *
-state_deserialize(bytea *value)
-{
-	size_t size = VARSIZE_ANY_EXHDR(value);
-	state_image image;
-	state *s;
-
-	if (size < sizeof(image))
-		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION), errmsg("a typify state is truncated"));
-	memcpy(&image, VARDATA_ANY(value), sizeof(image));
-	if (image.magic != STATE_MAGIC || image.building_size != sizeof(ty_building) || image.count == 0 ||
-		image.count > TY_MAX_VERTICES || size - sizeof(image) != image.count * sizeof(ty_building))
-		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION),
-				errmsg("a typify state is from another version, or broken"));
-	s = state_new(CurrentMemoryContext, &image.parameters, image.srid);
-	state_reserve(s, image.count);
-	memcpy(s->buildings, VARDATA_ANY(value) + sizeof(image), image.count * sizeof(ty_building));
-	s->count = image.count;
-	return s;
-}
+#include "state.h"
 
 /* --- rows --- */
 
@@ -202,22 +66,19 @@ check_importance(FunctionCallInfo fcinfo, int argument)
 }
 
 /* The state of the row's group, with the row's parameters and SRID checked against it. */
-static state *
+static ty_state *
 state_for_row(FunctionCallInfo fcinfo, MemoryContext context, const row_layout *layout, int32 srid)
 {
-	state *s = PG_ARGISNULL(0) ? NULL : (state *) PG_GETARG_POINTER(0);
+	ty_state *s = PG_ARGISNULL(0) ? NULL : (ty_state *) PG_GETARG_POINTER(0);
 	ty_call *call = ty_call_of(fcinfo, layout->parameters, 1);
 	const ty_parameters *parameters = ty_call_parameters(call, &fcinfo->args[layout->parameters], s == NULL);
 
 	if (s == NULL)
-	{
-		ty_check_srid(&call->srids, srid);
-		s = state_new(context, parameters, srid);
-	}
+		s = ty_state_new(context, parameters, srid, ty_check_srid(&call->srids, srid));
 	else if (unlikely(s->generation != call->generation) && !ty_same_parameters(&s->parameters, parameters))
 		ty_refuse_varying_parameters();
 	s->generation = call->generation;
-	state_check_srid(s, srid);
+	ty_state_check_srid(s, srid);
 	return s;
 }
 
@@ -228,7 +89,7 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 	MemoryContext context = aggregate_context(fcinfo);
 	ty_building building;
 	int32 srid;
-	state *s;
+	ty_state *s;
 
 	if (PG_ARGISNULL(1) || !ty_measure_datum(PG_GETARG_DATUM(1), &building, &srid, NULL))
 	{
@@ -242,7 +103,7 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 	building.id = layout->id != 0 ? PG_GETARG_INT64(layout->id) : 0;
 	check_importance(fcinfo, layout->importance);
 	if (unlikely(s->count == s->capacity))
-		state_reserve(s, 1);
+		ty_state_reserve(s, 1);
 	s->buildings[s->count++] = building;
 	PG_RETURN_POINTER(s);
 }
@@ -254,9 +115,13 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 
 /* Typifies the group; the result is of the current context. The state stays as it is. */
 static void
-state_typify(const state *s, ty_result *result)
+state_typify(const ty_state *s, ty_result *result)
 {
-	ty_typify_group(s->buildings, s->count, &s->parameters, result);
+	ty_input input = {.buildings = s->buildings, .n = s->count};
+	ty_parameters parameters = s->parameters;
+
+	ty_bring_to_ground(&parameters, s->metres_per_unit);
+	ty_typify_group(&input, &parameters, result);
 	if (s->count >= LARGE_GROUP)
 		ty_trim_memory();
 	if (result->undrawn > 0)
@@ -283,7 +148,7 @@ id_of_sortable(uint64 number)
 
 /* Ids must differ. What it takes to see that is given back before the group is typified. */
 static void
-check_ids(const state *s)
+check_ids(const ty_state *s)
 {
 	uint64 *ids = ty_allocate_array(&ty_backend_environment, s->count, sizeof(uint64));
 	uint32 *unused = ty_allocate_array(&ty_backend_environment, s->count, sizeof(uint32));
@@ -327,7 +192,7 @@ typedef struct row_writer
 	TupleDesc shape;
 	Datum *values; /* of a row, with dropped attributes behind the fields */
 	bool *nulls;
-	const state *group;
+	const ty_state *group;
 	const ty_result *result;
 	ArrayType *array; /* room for the most it can take; what is not written takes no memory */
 	size_t used;
@@ -358,7 +223,7 @@ array_header(ArrayType *array, size_t size, Oid element, int count)
 }
 
 static void
-writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const state *s, const ty_result *result)
+writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result)
 {
 	Oid element = get_element_type(get_func_rettype(fcinfo->flinfo->fn_oid));
 	size_t size = array_size_bound(result);
@@ -414,7 +279,7 @@ writer_append(row_writer *writer, HeapTuple row)
 static void
 writer_add(row_writer *writer, const ty_placeholder *placeholder)
 {
-	const state *s = writer->group;
+	const ty_state *s = writer->group;
 	bool drawn = placeholder->area > 0;
 	HeapTuple row;
 
@@ -446,7 +311,7 @@ writer_end(row_writer *writer)
 }
 
 static Datum
-placeholder_array(FunctionCallInfo fcinfo, const state *s, const ty_result *result)
+placeholder_array(FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result)
 {
 	row_writer writer;
 
@@ -480,15 +345,15 @@ Datum
 typify_combine(PG_FUNCTION_ARGS)
 {
 	MemoryContext context = aggregate_context(fcinfo);
-	state *a = PG_ARGISNULL(0) ? NULL : (state *) PG_GETARG_POINTER(0);
-	const state *b = PG_ARGISNULL(1) ? NULL : (const state *) PG_GETARG_POINTER(1);
+	ty_state *a = PG_ARGISNULL(0) ? NULL : (ty_state *) PG_GETARG_POINTER(0);
+	const ty_state *b = PG_ARGISNULL(1) ? NULL : (const ty_state *) PG_GETARG_POINTER(1);
 
 	if (a == NULL && b == NULL)
 		PG_RETURN_NULL();
 	if (a == NULL)
-		a = state_new(context, &b->parameters, b->srid);
+		a = ty_state_new(context, &b->parameters, b->srid, b->metres_per_unit);
 	if (b != NULL)
-		state_merge(a, b);
+		ty_state_merge(a, b);
 	PG_RETURN_POINTER(a);
 }
 
@@ -497,7 +362,7 @@ Datum
 typify_serialize(PG_FUNCTION_ARGS)
 {
 	aggregate_context(fcinfo);
-	PG_RETURN_BYTEA_P(state_serialize((const state *) PG_GETARG_POINTER(0)));
+	PG_RETURN_BYTEA_P(ty_state_serialize((const ty_state *) PG_GETARG_POINTER(0)));
 }
 
 PG_FUNCTION_INFO_V1(typify_deserialize);
@@ -505,14 +370,14 @@ Datum
 typify_deserialize(PG_FUNCTION_ARGS)
 {
 	aggregate_context(fcinfo);
-	PG_RETURN_POINTER(state_deserialize(PG_GETARG_BYTEA_PP(0)));
+	PG_RETURN_POINTER(ty_state_deserialize(PG_GETARG_BYTEA_PP(0)));
 }
 
 PG_FUNCTION_INFO_V1(typify_final);
 Datum
 typify_final(PG_FUNCTION_ARGS)
 {
-	const state *s = PG_ARGISNULL(0) ? NULL : (const state *) PG_GETARG_POINTER(0);
+	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
 	ty_result result;
 	Datum collection;
 
@@ -529,7 +394,7 @@ PG_FUNCTION_INFO_V1(typify_placeholders_final);
 Datum
 typify_placeholders_final(PG_FUNCTION_ARGS)
 {
-	const state *s = PG_ARGISNULL(0) ? NULL : (const state *) PG_GETARG_POINTER(0);
+	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
 	ty_result result;
 	Datum array;
 

@@ -90,8 +90,8 @@ static const option_entry entries[OPTIONS] = {
 	 .choice = "rectangle, square, footprint or auto",
 	 .built_words = 2},
 	{.name = "min_area", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
-	{.name = "min_side", .kind = NUMBER_FROM_0, .state = UNBUILT},
-	{.name = "max_area", .kind = NUMBER_FROM_0, .state = UNBUILT},
+	{.name = "min_side", .kind = NUMBER_FROM_0},
+	{.name = "max_area", .kind = NUMBER_FROM_0},
 	{.name = "keep_area", .kind = NUMBER_FROM_0, .state = UNBUILT},
 	{.name = "min_gap", .kind = NUMBER_FROM_0, .state = UNBUILT},
 	{.name = "alignment", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
@@ -278,6 +278,8 @@ apply_options(const option_values *options, ty_parameters *p)
 	p->count_rule = (ty_count_rule) word_or(options, OPTION_COUNT_RULE, TY_RADICAL);
 	p->area_statistic = (ty_area_statistic) word_or(options, OPTION_AREA_STATISTIC, TY_MEAN);
 	p->shape = (ty_shape) word_or(options, OPTION_SHAPE, TY_RECTANGLE);
+	p->min_side = number_or(options, OPTION_MIN_SIDE, 0);
+	p->max_area = number_or(options, OPTION_MAX_AREA, TY_DEFAULT_MAX_AREA_SIDES * p->min_side * p->min_side);
 }
 
 void
@@ -314,7 +316,8 @@ ty_same_parameters(const ty_parameters *a, const ty_parameters *b)
 	return a->scale == b->scale && a->s_u == b->s_u && a->source_scale == b->source_scale &&
 		   a->lod200_scale == b->lod200_scale && a->exponent == b->exponent && a->psi == b->psi &&
 		   a->min_distance == b->min_distance && a->count == b->count && a->law == b->law &&
-		   a->count_rule == b->count_rule && a->area_statistic == b->area_statistic && a->shape == b->shape;
+		   a->count_rule == b->count_rule && a->area_statistic == b->area_statistic && a->shape == b->shape &&
+		   a->min_side == b->min_side && a->max_area == b->max_area;
 }
 
 /* Dropped attributes, which the shape may have behind the fields, are null. */

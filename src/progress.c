@@ -55,10 +55,10 @@ ty_define_progress(void)
 }
 
 void
-ty_typify_group(const ty_building *buildings, size_t n, const ty_parameters *p, ty_result *result)
+ty_typify_group(const ty_input *input, const ty_parameters *p, ty_result *result)
 {
 	ty_environment env = ty_backend_environment;
-	report r = {.buildings = n};
+	report r = {.buildings = input->n};
 
 	if (show_progress)
 	{
@@ -66,5 +66,5 @@ ty_typify_group(const ty_building *buildings, size_t n, const ty_parameters *p, 
 		env.progress = show;
 		env.context = &r;
 	}
-	ty_check_status(ty_typify(&env, buildings, n, p, result));
+	ty_check_status(ty_typify(&env, input, p, result));
 }

@@ -7,6 +7,7 @@
 #include "srid.h"
 
 #include <ctype.h>
+#include <math.h>
 
 #include "access/genam.h"
 #include "access/htup_details.h"
@@ -55,6 +56,13 @@ typedef enum crs_kind
 	CRS_GEOCENTRIC
 } crs_kind;
 
+/* What is known of an SRID. */
+typedef struct crs
+{
+	crs_kind kind;
+	double metres_per_unit;
+} crs;
+
 /* Any form that PROJ knows for degrees; rotated poles ("+o_proj=longlat") among them. */
 static crs_kind
 proj4_kind(const char *text)
@@ -64,6 +72,22 @@ proj4_kind(const char *text)
 	if (strstr(text, "proj=geocent"))
 		return CRS_GEOCENTRIC;
 	return strstr(text, "proj=") ? CRS_PLANAR : CRS_UNKNOWN;
+}
+
+/* Feet, kilometres, and whatever +to_meter says; anything else counts as metres. */
+static double
+proj4_metres(const char *text)
+{
+	const char *to_meter = strstr(text, "+to_meter=");
+	double metres = to_meter == NULL ? 0 : strtod(to_meter + strlen("+to_meter="), NULL);
+
+	if (isfinite(metres) && metres > 0)
+		return metres;
+	if (strstr(text, "+units=us-ft"))
+		return 1200 / 3937.0;
+	if (strstr(text, "+units=ft"))
+		return 0.3048;
+	return strstr(text, "+units=km") ? 1000 : 1;
 }
 
 /* The keyword at or after *text, which comes to stand behind it; what is in quotes is passed over. 0: no more. */
@@ -149,16 +173,16 @@ named_code(const char *proj4)
 }
 
 /* Whichever of the two texts refuses; *named receives a code that stands in for both, else 0. */
-static crs_kind
-row_kind(Relation relation, HeapTuple tuple, int32 *named)
+static crs
+crs_of_row(Relation relation, HeapTuple tuple, int32 *named)
 {
 	const char *proj4 = text_of_column(relation, tuple, "proj4text");
-	crs_kind kind = wkt_kind(text_of_column(relation, tuple, "srtext"));
+	crs found = {wkt_kind(text_of_column(relation, tuple, "srtext")), proj4_metres(proj4)};
 
-	if (kind <= CRS_PLANAR)
-		kind = Max(kind, proj4_kind(proj4));
-	*named = kind == CRS_UNKNOWN ? named_code(proj4) : 0;
-	return kind;
+	if (found.kind <= CRS_PLANAR)
+		found.kind = Max(found.kind, proj4_kind(proj4));
+	*named = found.kind == CRS_UNKNOWN ? named_code(proj4) : 0;
+	return found;
 }
 
 /* The primary key's index where its first column is this one: others cannot be searched by it. */
@@ -176,55 +200,61 @@ index_on(Relation relation, AttrNumber column)
 	return index;
 }
 
-static crs_kind
-kind_of_srid(Relation relation, AttrNumber column, int32 srid, int32 *named)
+static crs
+crs_of_srid(Relation relation, AttrNumber column, int32 srid, int32 *named)
 {
 	Oid index = index_on(relation, column);
 	SysScanDesc scan;
 	ScanKeyData key;
 	HeapTuple tuple;
-	crs_kind kind = CRS_UNKNOWN;
+	crs found = {CRS_UNKNOWN, 1};
 
 	*named = 0;
 	ScanKeyInit(&key, column, BTEqualStrategyNumber, F_INT4EQ, Int32GetDatum(srid));
 	scan = systable_beginscan(relation, index, OidIsValid(index), GetActiveSnapshot(), 1, &key);
-	while ((tuple = systable_getnext(scan)) != NULL && kind <= CRS_PLANAR)
-		kind = Max(kind, row_kind(relation, tuple, named));
+	while ((tuple = systable_getnext(scan)) != NULL && found.kind <= CRS_PLANAR)
+	{
+		crs row = crs_of_row(relation, tuple, named);
+
+		if (row.kind >= found.kind)
+			found = row;
+	}
 	systable_endscan(scan);
-	return kind;
+	return found;
 }
 
 /* A row that only names another code (PostGIS numbers rows as EPSG does) is what that one is. */
-static crs_kind
-look_up_kind(Oid geometry_type, int32 srid)
+static crs
+look_up(Oid geometry_type, int32 srid)
 {
 	Oid table = get_relname_relid("spatial_ref_sys", schema_of_type(geometry_type));
 	AttrNumber column = OidIsValid(table) ? get_attnum(table, "srid") : InvalidAttrNumber;
 	Relation relation;
-	crs_kind kind;
+	crs found = {CRS_UNKNOWN, 1};
 	int32 named;
 
 	if (column == InvalidAttrNumber || get_rel_relkind(table) != RELKIND_RELATION ||
 		get_atttype(table, column) != INT4OID)
-		return CRS_UNKNOWN;
+		return found;
 	relation = table_open(table, AccessShareLock);
-	kind = kind_of_srid(relation, column, srid, &named);
-	if (kind == CRS_UNKNOWN && named > 0)
-		kind = kind_of_srid(relation, column, named, &named);
+	found = crs_of_srid(relation, column, srid, &named);
+	if (found.kind == CRS_UNKNOWN && named > 0)
+		found = crs_of_srid(relation, column, named, &named);
 	table_close(relation, AccessShareLock);
-	return kind;
+	return found;
 }
 
 static void
-remember(ty_srid_cache *cache, int32 srid)
+remember(ty_srid_cache *cache, int32 srid, double metres_per_unit)
 {
 	if (cache->count == cache->capacity)
 	{
 		cache->capacity = cache->capacity == 0 ? 4 : 2 * cache->capacity;
-		cache->passed = cache->passed == NULL ? MemoryContextAlloc(cache->context, cache->capacity * sizeof(int32))
-											  : repalloc(cache->passed, cache->capacity * sizeof(int32));
+		cache->passed = cache->passed == NULL
+							? MemoryContextAlloc(cache->context, cache->capacity * sizeof(ty_known_srid))
+							: repalloc(cache->passed, cache->capacity * sizeof(ty_known_srid));
 	}
-	cache->passed[cache->count++] = srid;
+	cache->passed[cache->count++] = (ty_known_srid){srid, metres_per_unit};
 }
 
 static void
@@ -238,16 +268,20 @@ refuse_kind(crs_kind kind, int32 srid)
 			errhint("Use ST_Transform to bring the geometries into a projected coordinate system in metres."));
 }
 
-void
+double
 ty_check_srid(ty_srid_cache *cache, int32 srid)
 {
+	crs found;
+
 	if (srid <= 0)
-		return;
+		return 1;
 	for (int i = 0; i < cache->count; i++)
-		if (cache->passed[i] == srid)
-			return;
-	refuse_kind(look_up_kind(cache->geometry_type, srid), srid);
-	remember(cache, srid);
+		if (cache->passed[i].srid == srid)
+			return cache->passed[i].metres_per_unit;
+	found = look_up(cache->geometry_type, srid);
+	refuse_kind(found.kind, srid);
+	remember(cache, srid, found.metres_per_unit);
+	return found.metres_per_unit;
 }
 
 void

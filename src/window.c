@@ -38,6 +38,7 @@ typedef struct gathering
 	ty_parameters parameters;
 	uint64 generation; /* of the call's parameters at the first building; 0: there is none yet */
 	int32 srid;
+	double metres_per_unit; /* of the SRID */
 	size_t count;
 	ty_building *buildings; /* [rows], of which count are taken */
 	bool *usable;			/* [rows] whether the row has a building */
@@ -70,7 +71,7 @@ check_row(gathering *g, WindowObject window, int64 row, int32 srid)
 	}
 	if (first)
 	{
-		ty_check_srid(&call->srids, srid);
+		g->metres_per_unit = ty_check_srid(&call->srids, srid);
 		g->parameters = call->parameters;
 		g->generation = call->generation;
 		g->srid = srid;
@@ -122,7 +123,10 @@ typify_gathered(gathering *g, ty_result *result)
 {
 	*result = (ty_result){0};
 	if (g->count > 0)
-		ty_typify_group(g->buildings, g->count, &g->parameters, result);
+	{
+		ty_bring_to_ground(&g->parameters, g->metres_per_unit);
+		ty_typify_group(&(ty_input){g->buildings, g->count}, &g->parameters, result);
+	}
 	pfree(g->buildings);
 }
 

@@ -20,6 +20,7 @@ suite "core" make -s -C tests/unit check
 suite "core under sanitizers" make -s -C tests/unit asan
 single "same answer from every compiler and optimization" tests/determinism.sh
 single "centroid linkage equals SciPy's" tests/scipy.sh
+single "fuzz targets build and run" make -C tests/fuzz check
 
 if build_and_stage; then
 	with_server 3600 tools/test-in-server.sh || report failed "throw-away server" "exit status $?"

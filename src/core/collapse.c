@@ -261,8 +261,8 @@ ty_enter_merged(ty_run *run, uint32_t kept)
 }
 
 /*
- * Collapses the edge e, of the half-edge h. When the merged vertex comes to lie on another one, the two are the next to merge, at
- * cost 0, unless that would be one merge too many.
+ * Collapses the edge e, of the half-edge h. When the merged vertex comes to lie on another one, the two are the next
+ * to merge, at cost 0, unless that would be one merge too many.
  */
 static ty_status
 collapse_edge(ty_run *run, ty_edge e, uint32_t h, ty_stop stop)

@@ -143,7 +143,10 @@ ty_bucket_of(const ty_queue *queue, int32_t key)
 
 /* ---- collapse.c ---- */
 
-/* Adds gone to kept, which the mesh has not moved yet; returns where kept comes to: the mean of all that both represent. */
+/*
+ * Adds gone to kept, which the mesh has not moved yet; returns where kept comes to: the mean of all that both
+ * represent.
+ */
 ty_position ty_join(ty_run *run, uint32_t kept, uint32_t gone);
 /* Undoes ty_join. merged: the place that it returned; the vertex is still there. */
 void ty_part(ty_run *run, uint32_t kept, uint32_t gone, ty_position merged, ty_position former);

@@ -85,22 +85,33 @@ median_area(const ty_environment *env, const group *g, const uint32_t *members, 
 	return status;
 }
 
-/* A_n of spec 3.2 */
+/* the statistic of the members' areas, unscaled (spec 3.2) */
 static ty_status
-placeholder_area(const ty_environment *env, const group *g, const uint32_t *members, size_t n, double *area)
+area_statistic(const ty_environment *env, const group *g, const uint32_t *members, size_t n, double *area)
 {
 	ty_area_statistic statistic = g->parameters->area_statistic;
-	ty_status status = TY_OK;
 
 	if (n == 1)
 		*area = g->buildings[members[0]].area;
 	else if (statistic == TY_MEDIAN)
-		status = median_area(env, g, members, n, area);
+		return median_area(env, g, members, n, area);
 	else
 		*area = sum_areas(g->buildings, members, n, g->scale) / (statistic == TY_SUM ? 1 : (double) n);
-	if (statistic != TY_SUM)
-		*area *= g->area_factor;
-	return status;
+	return TY_OK;
+}
+
+/* How large the placeholder is drawn, whose representative is b. */
+static void
+set_size(const group *g, const ty_building *b, double statistic, ty_placeholder *p)
+{
+	double area = ty_scaled_area(g->parameters, g->area_factor, statistic);
+	double ratio = g->parameters->shape == TY_SQUARE ? 1 : b->ratio;
+	ty_size size = ty_drawn_size(g->parameters, statistic, area, ratio, p->count);
+
+	p->area = size.area;
+	p->ratio = size.ratio;
+	p->width = size.width;
+	p->length = size.length;
 }
 
 /* the largest area, then the smallest rank; members ascend by rank */
@@ -130,17 +141,17 @@ static ty_status
 describe(const ty_environment *env, const group *g, const uint32_t *members, uint32_t rank, ty_placeholder *p)
 {
 	const ty_building *b;
-	ty_status status = placeholder_area(env, g, members + p->first, p->count, &p->area);
+	double statistic = 0;
+	ty_status status = area_statistic(env, g, members + p->first, p->count, &statistic);
 
 	p->representative = representative(g, members + p->first, p->count);
 	b = &g->buildings[p->representative];
 	/* a building that stands for itself stays exactly where it is */
 	p->x = p->count == 1 ? b->x : ty_grid_x(&g->grid, g->position[rank].x);
 	p->y = p->count == 1 ? b->y : ty_grid_y(&g->grid, g->position[rank].y);
-	p->ratio = g->parameters->shape == TY_SQUARE ? 1 : b->ratio;
 	p->ux = b->ux;
 	p->uy = b->uy;
-	ty_rectangle_sides(p->area, p->ratio, &p->width, &p->length);
+	set_size(g, b, statistic, p);
 	if (status == TY_OK && (!isfinite(p->area) || !isfinite(p->length)))
 		status = TY_NOT_FINITE;
 	return status;
@@ -273,8 +284,10 @@ order_group(const ty_environment *env, group *g, size_t n)
 }
 
 ty_status
-ty_typify(const ty_environment *env, const ty_building *buildings, size_t n, const ty_parameters *p, ty_result *result)
+ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result)
 {
+	const ty_building *buildings = input->buildings;
+	size_t n = input->n;
 	group g = {.buildings = buildings, .parameters = p, .area_factor = ty_area_factor(p)};
 	ty_sequence sequence = {0};
 	ty_status status;

@@ -8,12 +8,19 @@
 #include "measure.h"
 #include "placeholder.h"
 
+/* What a group is made of. Only read. */
+typedef struct ty_input
+{
+	const ty_building *buildings; /* [n] in any order */
+	size_t n;					  /* >= 1 */
+} ty_input;
+
 typedef struct ty_placeholder
 {
 	double x, y; /* the vertex, ground units; of a single building its very centroid, off the grid */
-	double area; /* A_n, ground units; 0: no size, not drawn */
+	double area; /* what is drawn, ground units; 0: no size, not drawn */
 	double width, length;
-	double ratio;			 /* of the representative, 1 for squares */
+	double ratio;			 /* width / length; of the representative unless min_side changed it, 1 for squares */
 	double ux, uy;			 /* of the representative */
 	uint32_t representative; /* index into the caller's buildings */
 	uint32_t first, count;	 /* members: ty_result.members[first .. first + count) */
@@ -28,11 +35,11 @@ typedef struct ty_result
 } ty_result;
 
 /*
- * The whole way of one group: canonical order, mesh, collapse, cut, placeholders. Buildings are only read. n >= 1.
+ * The whole way of one group: canonical order, mesh, collapse, cut, placeholders.
+ * Lengths of p are ground units (ty_bring_to_ground).
  * The result's arrays come from env; ty_result_free gives them back. TY_NOT_FINITE when a sum of areas overflows.
  */
-ty_status ty_typify(const ty_environment *env, const ty_building *buildings, size_t n, const ty_parameters *p,
-					ty_result *result);
+ty_status ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result);
 void ty_result_free(const ty_environment *env, ty_result *result);
 
 #endif

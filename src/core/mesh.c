@@ -1,8 +1,8 @@
 /*
  * mesh.c - see mesh.h
  *
- * mesh_build.c builds the mesh; this file changes it, mesh_hole.c takes vertices out; mesh_check.c checks it. A collapse
- * goes one of three ways:
+ * mesh_build.c builds the mesh; this file changes it, mesh_hole.c takes vertices out; mesh_check.c checks it. A
+ * collapse goes one of three ways:
  *
  *   contract  both stars lie inside the hull and stay star-shaped seen from the new place: the two triangles
  *             at the edge vanish, the rest is renamed, flips restore the Delaunay property. Nearly always.
@@ -369,9 +369,6 @@ list_live(const ty_mesh *mesh, uint32_t *list, uint64_t *keys)
 	return n;
 }
 
-/* Building anew takes this many times the work of a corner or flip, per vertex. */
-#define WORK_OF_REBUILDING 8
-
 /* Builds the mesh of the vertices whose edge is not TY_NONE, wherever they now are. */
 static ty_status
 rebuild_live(ty_mesh *mesh)
@@ -389,7 +386,7 @@ rebuild_live(ty_mesh *mesh)
 			status = ty_mesh_triangulate(mesh, list, keys, n);
 		if (status == TY_OK)
 			tell_all_edges(mesh);
-		mesh->work += WORK_OF_REBUILDING * n;
+		mesh->work += TY_WORK_OF_BUILDING * n;
 	}
 	ty_release(mesh->env, list);
 	ty_release(mesh->env, keys);

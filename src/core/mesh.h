@@ -55,8 +55,8 @@ typedef struct ty_mesh
 /*
  * Builds the mesh over the given vertices by divide and conquer along the Hilbert order (after Guibas and
  * Stolfi 1985). keys[i] is the Hilbert key of vertex list[i], ascending and without repeats; list NULL means
- * 0 .. n-1. vertex holds `vertices` entries, positions filled in, and must outlive the mesh. On any status but TY_OK nothing is
- * to be freed.
+ * 0 .. n-1. vertex holds `vertices` entries, positions filled in, and must outlive the mesh. On any status but TY_OK
+ * nothing is to be freed.
  */
 ty_status ty_mesh_build(const ty_environment *env, ty_vertex *vertex, size_t vertices, const uint32_t *list,
 						const uint64_t *keys, size_t n, ty_mesh *mesh);

@@ -11,7 +11,10 @@
 
 #include <string.h>
 
-/* Most stars have 6 corners. Up to this many d^2 tests cost less than divide and conquer (measured: 6 us each way). Tests set it. */
+/*
+ * Most stars have 6 corners. Up to this many d^2 tests cost less than divide and conquer (measured: 6 us each way).
+ * Tests set it.
+ */
 #ifndef TY_SMALL_HOLE
 #define TY_SMALL_HOLE 24
 #endif
@@ -279,9 +282,6 @@ move_in(ty_mesh *mesh, const patch *p, const hole *hole)
 	}
 }
 
-/* Building a mesh takes this many times the work of a corner or flip, per vertex. */
-#define WORK_OF_BUILDING 8
-
 static ty_status
 fill_large_hole(ty_mesh *mesh, const hole *hole)
 {
@@ -294,7 +294,7 @@ fill_large_hole(ty_mesh *mesh, const hole *hole)
 		status = TY_BROKEN;
 	if (status == TY_OK)
 		move_in(mesh, &p, hole);
-	mesh->work += WORK_OF_BUILDING * hole->count;
+	mesh->work += TY_WORK_OF_BUILDING * hole->count;
 	free_patch(&p);
 	return status;
 }

@@ -5,6 +5,9 @@
 #include "mesh.h"
 #include "predicates.h"
 
+/* Building a mesh takes this many times the work of a corner or flip, per vertex. */
+#define TY_WORK_OF_BUILDING 8
+
 /* makes two half-edges the two sides of one edge */
 static inline void
 ty_mesh_bond(ty_mesh *mesh, uint32_t h, uint32_t g)

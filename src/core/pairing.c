@@ -3,9 +3,9 @@
  *
  * A pair whose points are each other's nearest is taken by the greedy order before any other pair of either, so such
  * pairs can be taken whenever they are met. They are met by walking: from a point to its nearest of the other set, from
- * there to the nearest of the first, and so on. Each pair of the walk comes earlier in the order than the one before, so
- * it ends at two points that are each other's nearest. When they leave, the rest of the walk still holds and goes on
- * from its end: every step is paid for by a point that leaves, and all pairs together take O(n) searches.
+ * there to the nearest of the first, and so on. Each pair of the walk comes earlier in the order than the one before,
+ * so it ends at two points that are each other's nearest. When they leave, the rest of the walk still holds and goes
+ * on from its end: every step is paid for by a point that leaves, and all pairs together take O(n) searches.
  */
 #include "pairing.h"
 

@@ -103,6 +103,62 @@ ty_count(size_t n, const ty_parameters *p, double mean_area)
 	return count < (double) n ? (size_t) count : n;
 }
 
+/* ---- sizes on the map ---- */
+
+#define MILLIMETRES_PER_METRE 1000.0
+#define LEAST_RATIO_OF_SEVERAL (1.0 / 3) /* no stripe stands for several buildings */
+#define LEAST_LENGTH_IN_SIDES 1.5		 /* of what was enlarged to min_side, unless it is nearer to a square itself */
+
+void
+ty_bring_to_ground(ty_parameters *p, double metres_per_unit)
+{
+	double length = p->scale / MILLIMETRES_PER_METRE / metres_per_unit;
+
+	p->min_side *= length;
+	p->max_area *= length * length;
+}
+
+double
+ty_scaled_area(const ty_parameters *p, double area_factor, double statistic)
+{
+	return p->area_statistic == TY_SUM ? statistic : statistic * area_factor;
+}
+
+/*
+ * Enlarges the short side to min_side. The long side stays what it is, as far as the area does not come to exceed
+ * limit, and is long enough in any case that not everything turns square.
+ */
+static void
+enlarge(ty_size *size, double min_side, double limit)
+{
+	double longest = limit / min_side;
+
+	size->width = min_side;
+	size->length = fmin(size->length, longest);
+	size->length = fmax(size->length, min_side * fmin(1 / size->ratio, LEAST_LENGTH_IN_SIDES));
+	size->area = size->width * size->length;
+	size->ratio = size->width / size->length;
+}
+
+ty_size
+ty_drawn_size(const ty_parameters *p, double statistic, double area, double ratio, size_t members)
+{
+	double limit = INFINITY;
+	ty_size size = {.area = area, .ratio = ratio};
+
+	if (p->max_area > 0)
+	{
+		limit = fmax(statistic, p->max_area);
+		size.area = fmax(statistic, fmin(area, p->max_area));
+	}
+	if (p->min_side > 0 && members > 1)
+		size.ratio = fmax(size.ratio, LEAST_RATIO_OF_SEVERAL);
+	ty_rectangle_sides(size.area, size.ratio, &size.width, &size.length);
+	if (size.width < p->min_side)
+		enlarge(&size, p->min_side, limit);
+	return size;
+}
+
 void
 ty_rectangle_sides(double area, double ratio, double *width, double *length)
 {

@@ -41,12 +41,35 @@ typedef struct ty_parameters
 	ty_count_rule count_rule;
 	ty_area_statistic area_statistic;
 	ty_shape shape;
+	/* legibility, 0: off. Millimetres on the map as options say them, ground units after ty_bring_to_ground. */
+	double min_side; /* shortest side that is drawn */
+	double max_area; /* nothing is enlarged beyond it */
 } ty_parameters;
 
 #define TY_DEFAULT_SOURCE_SCALE 25000.0
 #define TY_DEFAULT_LOD200_SCALE 200000.0
 #define TY_DEFAULT_EXPONENT 2.0 /* repeats the paper's figures: 41 buildings give 20, 13, 10, 5 */
 #define TY_DEFAULT_PSI 0.75		/* smallest legible square at 1:200 000 for a mean building of 300 m2 (spec 3.2) */
+
+/* What is drawn for a vertex, ground units. All 0 where there is no size. */
+typedef struct ty_size
+{
+	double area, ratio, width, length; /* ratio: width / length, in (0, 1]; 1 where there is no size */
+} ty_size;
+
+#define TY_DEFAULT_MAX_AREA_SIDES 2.0 /* max_area in squares of min_side, where that one is set (spec 4.2) */
+
+/* Turns the lengths and areas of legibility into ground units, whose unit has so many metres. Once. */
+void ty_bring_to_ground(ty_parameters *p, double metres_per_unit);
+
+/* A_n of spec 3.2 for the unscaled statistic of the members' areas; area_factor: ty_area_factor(p) */
+double ty_scaled_area(const ty_parameters *p, double area_factor, double statistic);
+/*
+ * The size that is drawn (spec 3.2, 4.1, 4.2). statistic: of the members' areas, unscaled; area: A_n, or what is
+ * drawn instead; ratio: of the representative, 1 for squares; members: how many. Without min_side and max_area it is
+ * a rectangle of that area and ratio.
+ */
+ty_size ty_drawn_size(const ty_parameters *p, double statistic, double area, double ratio, size_t members);
 
 /* f_area (paper, section on size): ground units; 1 at the source scale */
 double ty_area_factor(const ty_parameters *p);

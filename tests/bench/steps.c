@@ -150,7 +150,7 @@ bench_whole(bench *b)
 	double start = clock_seconds(), seconds;
 	ty_result result;
 
-	check(ty_typify(&ty_plain_environment, b->buildings, b->n, &at_75000, &result), b, "typify");
+	check(ty_typify(&ty_plain_environment, &(ty_input){b->buildings, b->n}, &at_75000, &result), b, "typify");
 	seconds = clock_seconds() - start;
 	ty_result_free(&ty_plain_environment, &result);
 	return seconds;
@@ -163,7 +163,7 @@ bench_peak(bench *b)
 	ty_environment env = counting_environment(&counter);
 	ty_result result;
 
-	check(ty_typify(&env, b->buildings, b->n, &at_75000, &result), b, "typify");
+	check(ty_typify(&env, &(ty_input){b->buildings, b->n}, &at_75000, &result), b, "typify");
 	ty_result_free(&env, &result);
 	return (double) sizeof *b->buildings + (double) counter.peak / (double) b->n;
 }

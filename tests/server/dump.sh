@@ -1,22 +1,14 @@
 #!/bin/bash
 # dump.sh - the fear: a dump with layers, or with indexes on typify's functions, does not restore, or restores other
 # rows. typify, PostGIS and the tables are in three schemas. Uses the server of the PG* variables.
-set -euo pipefail
-cd "$(dirname "$0")/../.."
-database=typify_dump
-scratch=$(mktemp -d)
-finish() {
-	rm -rf "$scratch"
-	dropdb --if-exists $database
-	dropdb --if-exists ${database}_copy
-}
-trap finish EXIT
-export PGOPTIONS='-c client_min_messages=warning'
+. "$(dirname "$0")/common.sh"
 
 # the search_path is what the README's users have: everything on it while they work, nothing while it is restored
 path="SET search_path = maps, typify, gis"
-createdb -T template0 $database
-psql -qX -d $database -v ON_ERROR_STOP=1 -o /dev/null <<SQL
+export database=typify_dump scratch=$OWN_FOLDER
+own_database $database
+OWN_DATABASES+=(${database}_copy)
+sql -d $database -o /dev/null <<SQL
 CREATE SCHEMA gis;
 CREATE SCHEMA typify;
 CREATE SCHEMA maps;
@@ -50,7 +42,7 @@ SQL
 
 # story DATABASE: everything that must be the same on the other side
 story() {
-	PGOPTIONS="$PGOPTIONS -c extra_float_digits=3" psql -qXAt -d "$1" -v ON_ERROR_STOP=1 <<SQL
+	PGOPTIONS="$PGOPTIONS -c extra_float_digits=3" sql -At -d "$1" <<SQL
 $path;
 SELECT format('%s %s rows %s', relation, count(*), md5(string_agg(line, ';' ORDER BY line)))
 FROM (
@@ -72,7 +64,6 @@ SQL
 }
 story $database >"$scratch/before"
 grep -E 'rows|found' "$scratch/before"
-failed=0
 # restored HOW COMMAND...: the command restores into the empty copy; no word of an error, the same story, and layers
 # that can be refreshed
 restored() {
@@ -83,19 +74,18 @@ restored() {
 	if ! "$@" >"$scratch/words" 2>&1 </dev/null || [ -s "$scratch/words" ]; then
 		echo "failed: $how"
 		cat "$scratch/words"
-		failed=1
+		FAILED=1
 		return
 	fi
 	story ${database}_copy >"$scratch/after"
-	if ! diff "$scratch/before" "$scratch/after"; then echo "failed: $how: other rows"; failed=1; return; fi
-	psql -qX -d ${database}_copy -v ON_ERROR_STOP=1 -o /dev/null -c "$path" \
+	if ! diff "$scratch/before" "$scratch/after"; then echo "failed: $how: other rows"; FAILED=1; return; fi
+	sql -d ${database}_copy -o /dev/null -c "$path" \
 		-c "SELECT typify_refresh_scale('\"A layer\"', true), typify_refresh_scale('a_of_links')" \
 		-c "SELECT typify_refresh_groups('a_table', '{1}')"
 	story ${database}_copy >"$scratch/after"
-	if ! diff "$scratch/before" "$scratch/after"; then echo "failed: $how, refreshed: other rows"; failed=1; return; fi
+	if ! diff "$scratch/before" "$scratch/after"; then echo "failed: $how, refreshed: other rows"; FAILED=1; return; fi
 	echo "ok: $how, and refreshed there"
 }
-export database scratch
 restored "plain dump" bash -c 'set -o pipefail
 	pg_dump $database | psql -qX -v ON_ERROR_STOP=1 -o /dev/null -d ${database}_copy'
 pg_dump -Fc -f "$scratch/dump" $database
@@ -103,4 +93,4 @@ restored "custom format" pg_restore --exit-on-error -d ${database}_copy "$scratc
 restored "custom format, two jobs" pg_restore --exit-on-error -j 2 -d ${database}_copy "$scratch/dump"
 restored "section by section" bash -c 'for section in pre-data data post-data; do
 	pg_restore --exit-on-error --section=$section -d ${database}_copy "$scratch/dump" || exit 1; done'
-exit $failed
+exit $FAILED

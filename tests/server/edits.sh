@@ -2,18 +2,15 @@
 # edits.sh - the fear: after edits, refreshing the groups that changed leaves a layer that is not what deriving anew
 # gives: rows too many, too few, stale, or calibrated to what was. 1 000 random edits of the settlement, ten at a time,
 # with LOD200 by nearest building, and with fixed options. Uses the server of the PG* variables.
-set -euo pipefail
-cd "$(dirname "$0")/../.."
-database=typify_edits
-trap 'dropdb --if-exists $database' EXIT
-createdb $database
-export PGDATABASE=$database PGOPTIONS='-c client_min_messages=warning'
-psql -qXAt -v ON_ERROR_STOP=1 -o /dev/null -c 'CREATE EXTENSION typify CASCADE' -f tests/data/settlement.sql \
+. "$(dirname "$0")/common.sh"
+
+fresh_database typify_edits tests/data/settlement.sql
+sql -o /dev/null \
 	-c 'CREATE TABLE lod25 AS SELECT id, block, geom FROM settlement_buildings' \
 	-c 'CREATE TABLE coarse AS SELECT ST_Expand(ST_Centroid(geom), 30) AS geom FROM lod25 WHERE id % 11 = 0' \
 	-c 'ALTER TABLE lod25 ADD PRIMARY KEY (id)' \
 	-c 'CREATE INDEX ON lod25 USING gist (geom)' -c 'CREATE INDEX ON lod25 (block)' -c 'ANALYZE'
-answer=$(psql -qXAt -v ON_ERROR_STOP=1 -f tests/data/edits.sql -f - <<'SQL' | tail -1
+summary=$(sql -At -f tests/data/edits.sql -f - <<'SQL' | tail -1
 CREATE FUNCTION pg_temp.edits(OUT edits integer, OUT stale integer, OUT differing bigint, OUT fixed_differing bigint,
 	OUT refreshed bigint, OUT rows bigint, OUT seconds_groups numeric, OUT seconds_anew numeric) LANGUAGE plpgsql AS
 $$
@@ -62,5 +59,5 @@ SELECT format('%s edits, %s of 10 times stale before; rows that differ afterward
 	refreshed, rows, round(seconds_groups, 1), round(seconds_anew, 1)) FROM pg_temp.edits();
 SQL
 )
-echo "$answer"
-[[ $answer == "1000 edits, 10 of 10 times stale before; rows that differ afterwards: 0 calibrated, 0 with fixed "* ]]
+echo "$summary"
+[[ $summary == "1000 edits, 10 of 10 times stale before; rows that differ afterwards: 0 calibrated, 0 with fixed "* ]]

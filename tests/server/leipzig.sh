@@ -1,35 +1,16 @@
 #!/bin/bash
 # leipzig.sh - the fear: blocks, parts and links of a whole city take minutes, or lose a building. Uses the server of
-# the PG* variables and the data in TYPIFY_DATA, by default ../shared/data beside the project. Times are printed, not
-# judged. Exit status 77: skipped.
-set -euo pipefail
-cd "$(dirname "$0")/../.."
-data=${TYPIFY_DATA:-../shared/data}/leipzig_2017
-for layer in buildings roads; do
-	[ -r "$data/$layer.csv.gz" ] || { echo "skipped: no $data/$layer.csv.gz (TYPIFY_DATA)"; exit 77; }
-done
-database=typify_leipzig
-trap 'dropdb --if-exists $database' EXIT
+# the PG* variables and real data. Times are printed, not judged.
+. "$(dirname "$0")/common.sh"
 
-createdb $database
-export PGDATABASE=$database PGOPTIONS='-c client_min_messages=warning'
-psql -qX -v ON_ERROR_STOP=1 -c 'CREATE EXTENSION typify CASCADE'
-for layer in buildings roads; do
-	psql -qX -v ON_ERROR_STOP=1 -c "CREATE TABLE $layer (id bigint PRIMARY KEY, class text, geom geometry NOT NULL)" \
-		-c "\\copy $layer FROM PSTDIN WITH (FORMAT csv, HEADER true)" -c "CREATE INDEX ON $layer USING gist (geom)" \
-		-c "ANALYZE $layer" < <(gzip -dc "$data/$layer.csv.gz")
-done
+need_real leipzig_2017 buildings roads
+fresh_database typify_leipzig
+load_real buildings roads
 
 timed() { # timed WHAT STATEMENT
 	local start=$EPOCHREALTIME
-	psql -qX -v ON_ERROR_STOP=1 -c "$2"
+	sql -c "$2"
 	awk -v what="$1" -v from="$start" -v to="$EPOCHREALTIME" 'BEGIN { printf "%s: %.1f s\n", what, to - from }'
-}
-failed=0
-check() { # check WHAT QUERY: the query must return one row, t
-	local answer
-	answer=$(psql -qXAt -v ON_ERROR_STOP=1 -c "$2" 2>&1) || true
-	if [ "$answer" = t ]; then echo "ok: $1"; else echo "failed: $1: $answer"; failed=1; fi
 }
 
 timed "block ids for all buildings" "ALTER TABLE buildings ADD COLUMN block bigint;
@@ -37,38 +18,38 @@ timed "block ids for all buildings" "ALTER TABLE buildings ADD COLUMN block bigi
 timed "the blocks themselves" "CREATE TABLE blocks AS SELECT number, b.geom
 	FROM (SELECT ST_Collect(geom) AS lines FROM roads) r, typify_blocks(lines) WITH ORDINALITY AS b (geom, number);
 	CREATE INDEX ON blocks USING gist (geom); ANALYZE blocks"
-check "every building has a block" "SELECT count(*) = 122526 AND count(block) = count(*) FROM buildings"
-check "blocks are valid and have an area" "SELECT count(*) > 20000 AND bool_and(ST_IsValid(geom) AND ST_Area(geom) > 0) FROM blocks"
-check "a building's centroid is in its block, and inside no other" \
+holds "every building has a block" "SELECT count(*) = 122526 AND count(block) = count(*) FROM buildings"
+holds "blocks are valid and have an area" "SELECT count(*) > 20000 AND bool_and(ST_IsValid(geom) AND ST_Area(geom) > 0) FROM blocks"
+holds "a building's centroid is in its block, and inside no other" \
 	"SELECT count(*) = 122526 FROM buildings b, LATERAL (SELECT ST_SetSRID(typify_centre(b.geom)::geometry, 25833) p) c
 	WHERE b.block = (SELECT coalesce(min(number), 1) FROM blocks WHERE number > 1 AND ST_Intersects(blocks.geom, p))"
 
 timed "touching parts joined" "CREATE TABLE houses AS SELECT * FROM typify_dissolve_table('buildings')"
-psql -qX -v ON_ERROR_STOP=1 -c "CREATE INDEX ON houses USING gist (geom)" -c "ANALYZE houses"
+sql -c "CREATE INDEX ON houses USING gist (geom)" -c "ANALYZE houses"
 timed "... within half a metre" "CREATE TABLE near_houses AS SELECT * FROM typify_dissolve_table('buildings', 0.5)"
 for table in houses near_houses; do
-	check "$table: every building is part of exactly one" \
+	holds "$table: every building is part of exactly one" \
 		"SELECT count(*) = 122526 AND count(DISTINCT part) = count(*) FROM $table, unnest(parts) AS part"
-	check "$table: all valid, but for what stood alone" \
+	holds "$table: all valid, but for what stood alone" \
 		"SELECT bool_and(ST_IsValid(geom)) FROM $table WHERE cardinality(parts) > 1"
 done
-check "houses do not touch each other" \
+holds "houses do not touch each other" \
 	"SELECT count(*) = 0 FROM houses a JOIN houses b ON ST_DWithin(a.geom, b.geom, 0) AND a.id < b.id"
-check "they cover what their parts covered" "SELECT abs((SELECT sum(ST_Area(geom)) FROM houses)
+holds "they cover what their parts covered" "SELECT abs((SELECT sum(ST_Area(geom)) FROM houses)
 	/ (SELECT ST_Area(ST_UnaryUnion(ST_Collect(ST_MakeValid(geom)))) FROM buildings) - 1) < 1e-6"
 
-psql -qX -v ON_ERROR_STOP=1 -c "CREATE TABLE lod200 AS SELECT row_number() OVER (ORDER BY ST_Collect(geom)) AS id,
+sql -c "CREATE TABLE lod200 AS SELECT row_number() OVER (ORDER BY ST_Collect(geom)) AS id,
 	ST_Buffer(ST_Centroid(ST_Collect(ST_Centroid(geom))), 35)::geometry AS geom
 	FROM buildings GROUP BY ST_SnapToGrid(ST_Centroid(geom), 140)"
 timed "links, one group" "CREATE TABLE links AS SELECT * FROM typify_match('buildings', 'lod200', 0.5)"
 timed "derived in blocks, calibrated" "CREATE TABLE derived AS
 	SELECT * FROM typify_derive('buildings', 'lod200', 75000, 0.5, 'block')"
-check "every building is in one placeholder" \
+holds "every building is in one placeholder" \
 	"SELECT count(*) = 122526 AND count(DISTINCT member) = 122526 FROM derived, unnest(members) AS member"
 timed "links, block by block" "CREATE TABLE block_links AS SELECT * FROM typify_match('buildings', 'lod200', 0.5, 'block')"
 for table in links block_links; do
-	check "$table: every building once, every object" "SELECT count(lod25_id) = 122526 AND count(DISTINCT lod25_id) = 122526
+	holds "$table: every building once, every object" "SELECT count(lod25_id) = 122526 AND count(DISTINCT lod25_id) = 122526
 		AND count(DISTINCT lod200_id) = (SELECT count(*) FROM lod200) FROM $table"
-	check "$table: none is longer than the limit" "SELECT max(distance) <= 500 AND count(distance) > 100000 FROM $table"
+	holds "$table: none is longer than the limit" "SELECT max(distance) <= 500 AND count(distance) > 100000 FROM $table"
 done
-exit $failed
+exit $FAILED

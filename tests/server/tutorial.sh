@@ -11,7 +11,7 @@ for program in ogr2ogr rsvg-convert; do
 done
 psql -qXAt -c "SELECT datname FROM pg_database WHERE datname = 'two_levels'" postgres | grep . &&
 	{ echo "failed: there is a database two_levels already"; exit 1; }
-OWN_DATABASE=two_levels
+OWN_DATABASES+=(two_levels)
 
 # the page is read at the top of the sources, and leaves files there: this is their stand-in
 mkdir "$OWN_FOLDER/blocks" "$OWN_FOLDER/top"

@@ -52,7 +52,7 @@ SELECT q, pg_temp.error_of('SELECT ' || q)
 FROM unnest(ARRAY[
 	'typify_count(-1, 50000)', 'typify_count(1, 24999)', 'typify_count(1, ''NaN'')', 'typify_count(1, ''Infinity'')',
 	'typify_count(1, 50000, typify_options(min_distance => 10))', 'typify_count(1, 50000, typify_options(min_gap => 0.2))',
-	'typify_area_factor(24999)', 'typify_area_factor(50000, typify_options(min_side => 0.35))',
+	'typify_area_factor(24999)', 'typify_area_factor(50000, typify_options(shape => ''footprint''))',
 	'typify_psi(0, 1)', 'typify_psi(-1, 1)', 'typify_psi(1, -1)', 'typify_psi(''NaN'', 1)', 'typify_psi(1, ''Infinity'')',
 	'typify_psi(1, 1, 0, 1)', 'typify_psi(1, 1, 25000, 25000)', 'typify_psi(1, 1, 25000, ''Infinity'')',
 	'typify_rectangle(''POINT(0 0)'', 0, 1, 0)', 'typify_rectangle(''POINT(0 0)'', ''Infinity'', 1, 0)',

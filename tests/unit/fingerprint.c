@@ -79,7 +79,7 @@ hash_group(uint64_t hash, size_t n, const ty_parameters *p)
 {
 	ty_result result;
 
-	stop_on(ty_typify(&ty_plain_environment, buildings, n, p, &result), "ty_typify");
+	stop_on(ty_typify(&ty_plain_environment, &(ty_input){buildings, n}, p, &result), "ty_typify");
 	hash = HASH(hash, result.count);
 	for (size_t i = 0; i < result.count; i++)
 		hash = hash_placeholder(hash, &result, &result.placeholders[i]);

@@ -36,7 +36,7 @@ static ty_result
 typify(size_t n, const ty_parameters *p)
 {
 	ty_result result = {0, NULL, NULL, 0};
-	ty_status status = ty_typify(&ty_plain_environment, buildings, n, p, &result);
+	ty_status status = ty_typify(&ty_plain_environment, &(ty_input){buildings, n}, p, &result);
 
 	CHECK(status == TY_OK, "n %zu: status %d", n, status);
 	return result;
@@ -388,7 +388,7 @@ infinite_sums_of_areas_do_not_pass_unseen(void)
 	p.count = 1;
 	for (size_t i = 0; i < 4; i++)
 		buildings[i] = (ty_building){(double) i, 0, 1.5e308, 1, 1, 0, (int64_t) i};
-	if (ty_typify(&ty_plain_environment, buildings, 4, &p, &result) != TY_OK)
+	if (ty_typify(&ty_plain_environment, &(ty_input){buildings, 4}, &p, &result) != TY_OK)
 		return;
 	CHECK(isfinite(result.placeholders->area) && isfinite(result.placeholders->length), "area %g, length %g",
 		  result.placeholders->area, result.placeholders->length);
@@ -404,9 +404,9 @@ what_is_not_finite_is_told(void)
 	for (size_t i = 0; i < 10; i++)
 		buildings[i] = (ty_building){(double) i, 0, 100, 1, 1, 0, (int64_t) i};
 	buildings[7].y = NAN;
-	CHECK(ty_typify(&ty_plain_environment, buildings, 10, &p, &result) == TY_NOT_FINITE, "NaN");
+	CHECK(ty_typify(&ty_plain_environment, &(ty_input){buildings, 10}, &p, &result) == TY_NOT_FINITE, "NaN");
 	buildings[7].y = INFINITY;
-	CHECK(ty_typify(&ty_plain_environment, buildings, 10, &p, &result) == TY_NOT_FINITE, "infinity");
+	CHECK(ty_typify(&ty_plain_environment, &(ty_input){buildings, 10}, &p, &result) == TY_NOT_FINITE, "infinity");
 }
 
 int

@@ -316,6 +316,96 @@ directions_just_off_the_axis_stay_in_range(void)
 	}
 }
 
+static ty_parameters
+legible(double min_side, double max_area)
+{
+	ty_parameters p = defaults(100000);
+
+	p.min_side = min_side;
+	p.max_area = max_area;
+	return p;
+}
+
+static void
+check_size(const ty_parameters *p, double statistic, double area, double ratio, size_t members, double width,
+		   double length)
+{
+	ty_size size = ty_drawn_size(p, statistic, area, ratio, members);
+
+	CHECK(fabs(size.width - width) <= 1e-12 * width && fabs(size.length - length) <= 1e-12 * length,
+		  "%g of %g, ratio %g, %zu members: %.17g by %.17g instead of %.17g by %.17g", area, statistic, ratio, members,
+		  size.width, size.length, width, length);
+	NEAR(size.area, width * length);
+	NEAR(size.ratio, length > 0 ? width / length : 1.0);
+}
+
+static void
+without_limits_a_size_is_area_and_ratio(void)
+{
+	ty_parameters p = defaults(100000);
+
+	check_size(&p, 100, 400, 1, 1, 20, 20);
+	check_size(&p, 100, 400, 0.25, 5, 10, 40);
+	check_size(&p, 0, 0, 1, 5, 0, 0);
+}
+
+static void
+the_short_side_is_enlarged_and_not_all_turns_square(void)
+{
+	ty_parameters p = legible(10, 0);
+
+	check_size(&p, 25, 200, 0.5, 1, 10, 20);
+	check_size(&p, 25, 25, 1, 1, 10, 10);				/* a square stays one */
+	check_size(&p, 25, 25, 0.8, 1, 10, 12.5);			/* 1 / ratio */
+	check_size(&p, 25, 25, 0.25, 1, 10, 15);			/* 1.5 at most */
+	check_size(&p, 25, 100, 0.0625, 1, 10, 40);			/* a long side that is longer stays: 2.5 by 40 */
+	check_size(&p, 0, 0, 1, 1, 10, 10);					/* points */
+	check_size(&p, 25, 300, 0.1, 2, 10, sqrt(300 * 3)); /* several: the ratio is held at 1/3 */
+	check_size(&p, 25, 4800, 1.0 / 3, 2, 40, 120);
+	check_size(&p, 25, 1600, 0.25, 1, 20, 80);
+}
+
+static void
+nothing_is_enlarged_beyond_max_area(void)
+{
+	ty_parameters p = legible(10, 200), off = legible(0, 200);
+
+	check_size(&p, 100, 900, 1, 1, sqrt(200), sqrt(200)); /* grown to the limit */
+	check_size(&p, 100, 144, 1, 3, 12, 12);				  /* below it: A_n */
+	check_size(&p, 400, 3600, 1, 1, 20, 20);			  /* large by itself: its own size */
+	check_size(&p, 400, 100, 1, 1, 20, 20);				  /* not even smaller, when sizes are drawn smaller */
+	check_size(&off, 100, 900, 1, 1, sqrt(200), sqrt(200));
+	check_size(&p, 64, 900, 0.01, 1, 10, 20); /* a long thin one is enlarged to the limit, not beyond */
+	check_size(&p, 400, 900, 0.01, 1, 10, 40);
+}
+
+static void
+lengths_on_the_map_become_ground_units(void)
+{
+	ty_parameters metres = legible(0.35, 0.245), feet = metres, none = defaults(50000);
+
+	ty_bring_to_ground(&metres, 1);
+	NEAR(metres.min_side, 35.0);
+	NEAR(metres.max_area, 2450.0);
+	ty_bring_to_ground(&feet, 0.3048);
+	NEAR(feet.min_side, 35 / 0.3048);
+	NEAR(feet.max_area, 2450 / 0.3048 / 0.3048);
+	ty_bring_to_ground(&none, 0.3048);
+	CHECK(none.min_side == 0 && none.max_area == 0, "%g, %g", none.min_side, none.max_area);
+}
+
+static void
+the_plain_sum_is_not_scaled(void)
+{
+	ty_parameters p = defaults(100000);
+
+	NEAR(ty_scaled_area(&p, 7, 3), 21.0);
+	p.area_statistic = TY_MEDIAN;
+	NEAR(ty_scaled_area(&p, 7, 3), 21.0);
+	p.area_statistic = TY_SUM;
+	NEAR(ty_scaled_area(&p, 7, 3), 3.0);
+}
+
 int
 main(int argc, char **argv)
 {
@@ -335,5 +425,10 @@ main(int argc, char **argv)
 	RUN(no_area_gives_no_sides_and_no_nan);
 	RUN(orientation_lies_in_zero_to_180);
 	RUN(directions_just_off_the_axis_stay_in_range);
+	RUN(without_limits_a_size_is_area_and_ratio);
+	RUN(the_short_side_is_enlarged_and_not_all_turns_square);
+	RUN(nothing_is_enlarged_beyond_max_area);
+	RUN(lengths_on_the_map_become_ground_units);
+	RUN(the_plain_sum_is_not_scaled);
 	return check_end();
 }

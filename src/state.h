@@ -1,0 +1,41 @@
+/*
+ * state.h - what an aggregate keeps of a group: the measures of its buildings, in any order.
+ */
+#ifndef TY_STATE_H
+#define TY_STATE_H
+
+#include "compat.h"
+#include "core/measure.h"
+#include "core/placeholder.h"
+
+typedef struct ty_state
+{
+	MemoryContext context; /* of the state and its array */
+	ty_parameters parameters;
+	uint64 generation; /* of the call's parameters when they were last found equal to these */
+	int32 srid;
+	double metres_per_unit; /* of the SRID */
+	size_t count, capacity;
+	ty_building *buildings;
+} ty_state;
+
+/* Makes an empty state in the context. */
+extern ty_state *ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid,
+							  double metres_per_unit);
+
+/* Room for more buildings behind the last one. */
+extern void ty_state_reserve(ty_state *s, size_t more);
+
+/* Raises the error of two SRIDs in a group where the state's is another. */
+extern void ty_state_check_srid(const ty_state *s, int32 srid);
+
+/* Appends a copy of what b holds; b stays as it is. */
+extern void ty_state_merge(ty_state *a, const ty_state *b);
+
+/* In the current context; an error where a bytea cannot hold it. */
+extern bytea *ty_state_serialize(const ty_state *s);
+
+/* Makes the state in the current context; nothing of the value is kept. */
+extern ty_state *ty_state_deserialize(bytea *value);
+
+#endif
