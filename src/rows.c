@@ -95,8 +95,8 @@ number_buildings(const gathering *g, partition *p)
 	ty_check_status(ty_rows_of_group(&ty_backend_environment, g->buildings, g->count, order, &rows));
 	for (size_t rank = 0; rank < g->count; rank++)
 	{
-		p->row[g->origin[order[rank]]] = rows.row[rank];
-		p->place[g->origin[order[rank]]] = rows.place[rank];
+		p->row[g->origin[order[rank]]] = rows.span[rank].row;
+		p->place[g->origin[order[rank]]] = rows.span[rank].first;
 	}
 	ty_rows_free(&ty_backend_environment, &rows);
 	pfree(order);

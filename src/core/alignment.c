@@ -480,6 +480,7 @@ static void
 take_row(const search *s, uint32_t v, ty_rows *rows)
 {
 	uint32_t first = rows->first[rows->count], end = first, from = TY_NONE;
+	double length = 0;
 
 	while (v != TY_NONE)
 	{
@@ -493,9 +494,11 @@ take_row(const search *s, uint32_t v, ty_rows *rows)
 		return;
 	for (uint32_t i = first; i < end; i++)
 	{
-		rows->row[rows->member[i]] = (uint32_t) rows->count;
-		rows->place[rows->member[i]] = i - first;
+		rows->span[rows->member[i]] = (ty_span){(uint32_t) rows->count, i - first, i - first};
+		if (i > first)
+			length += neighbour_of(s, rows->member[i - 1], rows->member[i]).length;
 	}
+	rows->spacing[rows->count] = length / (end - first - 1);
 	rows->first[++rows->count] = end;
 }
 
@@ -512,12 +515,12 @@ end_of_chain(search *s, uint32_t v, ty_rows *rows)
 	{
 		uint32_t at = v, from = s->link[v].to[1 - i], next;
 
-		rows->row[v] = TY_NONE;
+		rows->span[v].row = TY_NONE;
 		while ((next = next_member(s, at, from)) != TY_NONE && next != v)
 		{
 			from = at;
 			at = next;
-			rows->row[at] = TY_NONE;
+			rows->span[at].row = TY_NONE;
 		}
 		if (next == v)
 		{
@@ -538,12 +541,12 @@ take_rows(search *s, ty_rows *rows)
 
 	rows->first[0] = 0;
 	for (size_t v = 0; v < n; v++)
-		rows->row[v] = s->link[v].to[0] == TY_NONE ? TY_NONE : NOT_MET;
+		rows->span[v].row = s->link[v].to[0] == TY_NONE ? TY_NONE : NOT_MET;
 	for (uint32_t v = 0; v < n; v++)
 	{
 		if (ty_interrupted_at(s->env, v))
 			return TY_INTERRUPTED;
-		if (rows->row[v] == NOT_MET)
+		if (rows->span[v].row == NOT_MET)
 			take_row(s, end_of_chain(s, v, rows), rows);
 	}
 	return TY_OK;
@@ -555,10 +558,10 @@ allocate_rows(const ty_environment *env, size_t n, ty_rows *rows)
 	*rows = (ty_rows){0};
 	rows->first = ty_allocate_array(env, n / 3 + 2, sizeof *rows->first);
 	rows->member = ty_allocate_array(env, n, sizeof *rows->member);
-	rows->row = ty_allocate_array(env, n, sizeof *rows->row);
-	rows->place = ty_allocate_array(env, n, sizeof *rows->place);
-	return rows->first != NULL && rows->member != NULL && rows->row != NULL && rows->place != NULL ? TY_OK
-																								   : TY_NO_MEMORY;
+	rows->spacing = ty_allocate_array(env, n / 3 + 1, sizeof *rows->spacing);
+	rows->span = ty_allocate_array(env, n, sizeof *rows->span);
+	return rows->first != NULL && rows->member != NULL && rows->spacing != NULL && rows->span != NULL ? TY_OK
+																									  : TY_NO_MEMORY;
 }
 
 ty_status
@@ -592,8 +595,8 @@ ty_rows_free(const ty_environment *env, ty_rows *rows)
 {
 	ty_release(env, rows->first);
 	ty_release(env, rows->member);
-	ty_release(env, rows->row);
-	ty_release(env, rows->place);
+	ty_release(env, rows->spacing);
+	ty_release(env, rows->span);
 	*rows = (ty_rows){0};
 }
 

@@ -68,7 +68,7 @@ is_row(const ty_rows *rows, size_t first, size_t k)
 
 	for (uint32_t rank = 0; rank < count; rank++)
 		rank_of[order[rank]] = rank;
-	row = rows->row[rank_of[first]];
+	row = rows->span[rank_of[first]].row;
 	if (row == TY_NONE || rows->first[row + 1] - rows->first[row] != k)
 		return false;
 	begin = rows->first[row];
@@ -226,7 +226,7 @@ invariants_hold_and_the_order_of_buildings_does_not_matter(void)
 			for (uint32_t i = rows.first[r]; i < rows.first[r + 1]; i++)
 			{
 				least = rows.member[i] < least ? rows.member[i] : least;
-				CHECK(rows.row[rows.member[i]] == r && rows.place[rows.member[i]] == i - rows.first[r],
+				CHECK(rows.span[rows.member[i]].row == r && rows.span[rows.member[i]].first == i - rows.first[r],
 					  "%s: row %zu, member %u", large_kind_name[kind], r, i);
 			}
 			CHECK(r == 0 || least > smallest, "%s: row %zu begins at %u", large_kind_name[kind], r, least);
