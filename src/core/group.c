@@ -52,6 +52,7 @@ sum_areas(const ty_building *buildings, const uint32_t *members, size_t n, area_
 typedef struct group
 {
 	const ty_building *buildings;
+	ty_outline *const *outlines;
 	const ty_parameters *parameters;
 	ty_grid grid;
 	area_scale scale;
@@ -100,14 +101,31 @@ area_statistic(const ty_environment *env, const group *g, const uint32_t *member
 	return TY_OK;
 }
 
-/* How large the placeholder is drawn, whose representative is b. */
+/* The direction and the place of the rectangle around an outline whose centre is the vertex. */
 static void
-set_size(const group *g, const ty_building *b, double statistic, ty_placeholder *p)
+fit_outline(const ty_outline *outline, ty_size size, ty_placeholder *p)
 {
-	double area = ty_scaled_area(g->parameters, g->area_factor, statistic);
-	double ratio = g->parameters->shape == TY_SQUARE ? 1 : b->ratio;
-	ty_size size = ty_drawn_size(g->parameters, statistic, area, ratio, p->count);
+	ty_point centre = ty_outline_box_centre(outline, sqrt(size.area / outline->area));
 
+	p->ux = outline->ux;
+	p->uy = outline->uy;
+	p->x += centre.x;
+	p->y += centre.y;
+}
+
+/* How large the placeholder is drawn, whose place and representative are known. */
+static void
+set_size(const group *g, double statistic, ty_placeholder *p)
+{
+	const ty_outline *outline = g->outlines == NULL ? NULL : g->outlines[p->representative];
+	double ratio = g->parameters->shape == TY_SQUARE ? 1 : g->buildings[p->representative].ratio;
+	double area = ty_scaled_area(g->parameters, g->area_factor, statistic);
+	ty_size size = outline != NULL && area > 0 ? ty_outline_drawn_size(g->parameters, outline, statistic, area)
+											   : ty_drawn_size(g->parameters, statistic, area, ratio, p->count);
+
+	p->outlined = outline != NULL && area > 0;
+	if (p->outlined)
+		fit_outline(outline, size, p);
 	p->area = size.area;
 	p->ratio = size.ratio;
 	p->width = size.width;
@@ -151,7 +169,7 @@ describe(const ty_environment *env, const group *g, const uint32_t *members, uin
 	p->y = p->count == 1 ? b->y : ty_grid_y(&g->grid, g->position[rank].y);
 	p->ux = b->ux;
 	p->uy = b->uy;
-	set_size(g, b, statistic, p);
+	set_size(g, statistic, p);
 	if (status == TY_OK && (!isfinite(p->area) || !isfinite(p->length)))
 		status = TY_NOT_FINITE;
 	return status;
@@ -288,7 +306,7 @@ ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters 
 {
 	const ty_building *buildings = input->buildings;
 	size_t n = input->n;
-	group g = {.buildings = buildings, .parameters = p, .area_factor = ty_area_factor(p)};
+	group g = {.buildings = buildings, .outlines = input->outlines, .parameters = p, .area_factor = ty_area_factor(p)};
 	ty_sequence sequence = {0};
 	ty_status status;
 
@@ -301,7 +319,7 @@ ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters 
 	g.scale = fit_area_scale(buildings, n);
 	status = order_group(env, &g, n);
 	if (status == TY_OK)
-		status = ty_collapse(env, g.position, n, p->s_u, find_stop(&g, n), false, NULL, NULL, &sequence);
+		status = ty_collapse(env, g.position, n, p->s_u, NULL, find_stop(&g, n), false, NULL, NULL, &sequence);
 	if (status == TY_OK)
 		status = cut_and_describe(env, &g, &sequence, n, result);
 	ty_sequence_free(env, &sequence);
