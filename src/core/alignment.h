@@ -56,8 +56,8 @@ ty_status ty_rows_of_group(const ty_environment *env, const ty_building *buildin
  * The length that counts of an edge between two vertices, at least the true one.
  *
  * Two vertices that follow each other in a row are inside it. They are merged in the order of a tree that halves the
- * row again and again, so that at any time no vertex stands for more than twice as many members as another, and large
- * and small ones alternate. For that the edge counts as long as the row's vertices are apart, on average, when its turn
+ * row again and again, so that at any time no vertex stands for more than twice as many members as another and one, and
+ * large and small ones alternate. For that the edge counts as long as the row's vertices are apart, on average, when its turn
  * has come: as many of them are left by then as the tree says. (Were the shortest edge to go first, equal spacings
  * would be thinned from one end.) Every other edge at a vertex of a row leaves it, and is lengthened by 1 + alignment.
  */
@@ -86,7 +86,7 @@ struct ty_placeholder;
 
 /*
  * Lays out the placeholders of each row, once they have places: on the line through the means of their members in the
- * row, at equal spacing along it, the ends at their means; nobody farther from its own mean than the spacing. Rows
+ * row, at equal spacing along it, the ends at their means; nobody farther from its own mean than four of these. Rows
  * whose placeholders are all single buildings stay as they are.
  */
 ty_status ty_rows_lay_out(const ty_environment *env, const ty_drawn_rows *drawn, struct ty_placeholder *placeholders);

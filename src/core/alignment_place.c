@@ -10,6 +10,8 @@
 
 #include <math.h>
 
+#define MOST_SPACINGS 4.0
+
 /* placeholders that follow each other in a row */
 typedef struct piece
 {
@@ -56,22 +58,23 @@ point_between(const piece *p, uint32_t at, double along)
 }
 
 /*
- * Lays a piece out between its ends. Nobody goes farther than the placeholders are apart: with merges in their turn that
- * never happens, but others may have taken members away.
+ * Lays a piece out between its ends. Nobody goes farther than MOST_SPACINGS: merges in their turn need less, of a
+ * thousand members 2.5, but others may have taken members away.
  */
 static void
 lay_out(const piece *p, ty_placeholder *placeholders)
 {
 	uint32_t last = p->count - 1, at = 0;
-	double spacing;
+	double spacing, most;
 
 	p->along[0] = 0;
 	for (uint32_t i = 1; i <= last; i++)
 		p->along[i] = p->along[i - 1] + distance(p->mean[i - 1], p->mean[i]);
 	spacing = p->along[last] / last;
+	most = MOST_SPACINGS * spacing;
 	for (uint32_t i = 0; i <= last; i++)
 	{
-		double along = fmax(fmin(spacing * i, p->along[i] + spacing), p->along[i] - spacing);
+		double along = fmax(fmin(spacing * i, p->along[i] + most), p->along[i] - most);
 		ty_point to = p->mean[i];
 
 		while (at + 1 < last && p->along[at + 1] <= along)

@@ -61,6 +61,8 @@ typedef struct group
 	ty_position *position; /* [n] by rank */
 	uint64_t *area_bits;   /* [largest number of members] scratch of the median ... */
 	uint32_t *sorted;	   /* ... and what its sort moves along */
+	ty_rows rows;		   /* with alignment; else none */
+	ty_influence influence;
 } group;
 
 /* an area whose bits the median has sorted; they ascend as areas do, which are not negative */
@@ -252,6 +254,25 @@ prepare_median(const ty_environment *env, group *g, const ty_result *result)
 	return TY_OK;
 }
 
+/* Lays out what is left of rows. */
+static ty_status
+lay_out_rows(const ty_environment *env, const group *g, const uint32_t *label, size_t n, ty_result *result)
+{
+	uint32_t *keeper = ty_allocate_array(env, result->count, sizeof *keeper);
+	ty_drawn_rows drawn = {&g->rows, g->buildings, g->order, label, keeper};
+	size_t next = 0;
+	ty_status status;
+
+	if (keeper == NULL)
+		return TY_NO_MEMORY;
+	for (size_t rank = 0; rank < n; rank++)
+		if (label[rank] == next)
+			keeper[next++] = (uint32_t) rank;
+	status = ty_rows_lay_out(env, &drawn, result->placeholders);
+	ty_release(env, keeper);
+	return status;
+}
+
 static ty_status
 cut_and_describe(const ty_environment *env, group *g, const ty_sequence *sequence, size_t n, ty_result *result)
 {
@@ -267,8 +288,26 @@ cut_and_describe(const ty_environment *env, group *g, const ty_sequence *sequenc
 		status = prepare_median(env, g, result);
 		if (status == TY_OK)
 			status = describe_all(env, g, label, n, result);
+		if (status == TY_OK && g->rows.count > 0)
+			status = lay_out_rows(env, g, label, n, result);
 	}
 	ty_release(env, label);
+	return status;
+}
+
+/* The rows of the group, found in the mesh of its collapse. */
+static ty_status
+find_rows(const void *context, const ty_mesh *mesh, ty_rows *rows)
+{
+	const group *g = context;
+	ty_trait *trait = ty_allocate_array(mesh->env, mesh->vertices, sizeof *trait);
+	ty_status status;
+
+	if (trait == NULL)
+		return TY_NO_MEMORY;
+	ty_traits(g->buildings, g->order, mesh->vertices, &g->grid, trait);
+	status = ty_rows_detect(mesh->env, mesh, trait, rows);
+	ty_release(mesh->env, trait);
 	return status;
 }
 
@@ -285,6 +324,18 @@ find_stop(const group *g, size_t n)
 	if (p->law)
 		stop.count = ty_count(n, p, mean_area);
 	return stop;
+}
+
+/* What weighs edges besides their length; NULL when nothing does. */
+static const ty_influence *
+find_influence(group *g)
+{
+	double alignment = g->parameters->alignment;
+
+	if (!(alignment > 0))
+		return NULL;
+	g->influence = (ty_influence){.rows = &g->rows, .alignment = alignment, .find_rows = find_rows, .context = g};
+	return &g->influence;
 }
 
 static ty_status
@@ -319,7 +370,8 @@ ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters 
 	g.scale = fit_area_scale(buildings, n);
 	status = order_group(env, &g, n);
 	if (status == TY_OK)
-		status = ty_collapse(env, g.position, n, p->s_u, NULL, find_stop(&g, n), false, NULL, NULL, &sequence);
+		status =
+			ty_collapse(env, g.position, n, p->s_u, find_influence(&g), find_stop(&g, n), false, NULL, NULL, &sequence);
 	if (status == TY_OK)
 		status = cut_and_describe(env, &g, &sequence, n, result);
 	ty_sequence_free(env, &sequence);
@@ -327,6 +379,7 @@ ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters 
 	ty_release(env, g.position);
 	ty_release(env, g.area_bits);
 	ty_release(env, g.sorted);
+	ty_rows_free(env, &g.rows);
 	if (status != TY_OK)
 		ty_result_free(env, result);
 	return status;
