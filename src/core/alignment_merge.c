@@ -43,24 +43,33 @@ due_spacing(uint32_t k, double spacing, uint32_t first, uint32_t middle, uint32_
 	}
 }
 
-double
-ty_aligned_length(const ty_rows *rows, ty_span a, ty_span b, double length, double alignment)
-{
-	ty_span before = a.first < b.first ? a : b, after = a.first < b.first ? b : a;
-	uint32_t row = before.row;
-
-	if (a.row == TY_NONE && b.row == TY_NONE)
-		return length;
-	if (!follows(before, after))
-		return length * (1 + alignment);
-	return fmax(length, due_spacing(rows->first[row + 1] - rows->first[row], rows->spacing[row], before.first,
-									after.first, after.last));
-}
-
 static uint64_t
 members_of(ty_span s)
 {
 	return (uint64_t) s.last - s.first + 1;
+}
+
+/* whether a vertex of a row stays in it with what is added to make it of that size */
+static bool
+stays(ty_span s, uint64_t size)
+{
+	return s.row != TY_NONE && 2 * members_of(s) >= size;
+}
+
+double
+ty_aligned_length(const ty_rows *rows, ty_span a, ty_span b, uint64_t size, double length, double alignment)
+{
+	ty_span before = a.first < b.first ? a : b, after = a.first < b.first ? b : a, alone = a.row == TY_NONE ? b : a;
+	uint32_t row = before.row;
+
+	if (alone.row == TY_NONE)
+		return length;
+	if (follows(before, after))
+		return fmax(length, due_spacing(rows->first[row + 1] - rows->first[row], rows->spacing[row], before.first,
+										after.first, after.last));
+	if ((a.row == TY_NONE || b.row == TY_NONE) && length < rows->spacing[alone.row] && stays(alone, size))
+		return length;
+	return length * (1 + alignment);
 }
 
 ty_span
@@ -72,7 +81,5 @@ ty_joined_span(ty_span a, ty_span b, uint64_t size)
 		return (ty_span){a.row, a.first, b.last};
 	if (follows(b, a))
 		return (ty_span){a.row, b.first, a.last};
-	if ((a.row != TY_NONE && b.row != TY_NONE) || alone.row == TY_NONE)
-		return none;
-	return 2 * members_of(alone) >= size ? alone : none;
+	return (a.row == TY_NONE || b.row == TY_NONE) && stays(alone, size) ? alone : none;
 }

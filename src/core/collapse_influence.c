@@ -77,10 +77,13 @@ row_factor(const ty_run *run, uint32_t a, uint32_t b)
 {
 	double length = sqrt((double) ty_squared_distance(run->vertex[a].position, run->vertex[b].position));
 
-	return length > 0 ? ty_aligned_length(run->rows, run->rows->span[a], run->rows->span[b], length,
-										  run->influence->alignment) /
-							length
-					  : 1;
+	uint64_t size = (uint64_t) run->vertex[a].size + run->vertex[b].size;
+
+	if (!(length > 0))
+		return 1;
+	return ty_aligned_length(run->rows, run->rows->span[a], run->rows->span[b], size, length,
+							 run->influence->alignment) /
+		   length;
 }
 
 double

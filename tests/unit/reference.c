@@ -232,7 +232,8 @@ cost_of(const reference *ref, uint32_t a, uint32_t b)
 		return INFINITY;
 	cost *= s->kept ? t->importance : t->kept ? s->importance : fmax(s->importance, t->importance);
 	if (influence != NULL && influence->rows != NULL && true_length(ref, a, b) > 0)
-		cost *= ty_aligned_length(influence->rows, s->span, t->span, true_length(ref, a, b), influence->alignment) /
+		cost *= ty_aligned_length(influence->rows, s->span, t->span, (uint64_t) (s->r + t->r), true_length(ref, a, b),
+								  influence->alignment) /
 				true_length(ref, a, b);
 	return cost;
 }

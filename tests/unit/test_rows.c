@@ -269,7 +269,7 @@ among_others(double alignment, double far, double most_off_line, double most_var
 
 	for (uint64_t seed = 0; seed < 12; seed++)
 		for (size_t k = 4; k <= 40; k += 3)
-			for (size_t left = 2 * k; left >= 3; left -= left > 12 ? 3 : 1)
+			for (size_t left = 2 * k; left >= 5; left -= left > 12 ? 3 : 1)
 			{
 				line l = {k, 600000, 5200000, 22, (double) seed * 0.5236, 0};
 				ty_result result;
