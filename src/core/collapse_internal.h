@@ -204,14 +204,15 @@ ty_both_kept(const ty_run *run, uint32_t a, uint32_t b)
 	return run->importance != NULL && run->importance[a] == INFINITY && run->importance[b] == INFINITY;
 }
 
-/* whether a barrier lies between two vertices */
+/* whether a barrier keeps two vertices from being merged */
 static inline bool
 ty_is_barred(const ty_run *run, uint32_t a, uint32_t b)
 {
 	const ty_influence *influence = run->influence;
 
 	return influence != NULL && influence->crosses != NULL &&
-		   influence->crosses(influence->barriers, run->vertex[a].position, run->vertex[b].position);
+		   influence->crosses(influence->barriers, run->vertex[a].position, run->vertex[b].position,
+							  ty_merged_place(run, a, b));
 }
 
 /* ---- collapse_batch.c ---- */
