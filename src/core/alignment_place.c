@@ -107,7 +107,8 @@ lay_row(const ty_drawn_rows *drawn, uint32_t row, piece *p, ty_placeholder *plac
 		uint32_t label = drawn->label[member[i]];
 		ty_span span = rows->span[drawn->keeper[label]];
 
-		if (span.row != row || span.first != i)
+		/* a kept building does not move, so the row ends at it and begins again */
+		if (span.row != row || span.first != i || placeholders[label].kept)
 		{
 			end_piece(p, placeholders);
 			continue;

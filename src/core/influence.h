@@ -17,9 +17,9 @@ typedef struct ty_barriers ty_barriers;
 typedef struct ty_influence
 {
 	/*
-	 * [n] by rank, >= 1; INFINITY: kept. NULL: all 1. A vertex has the largest of its members' and weighs as much as all
-	 * of them together. The factor is the larger of the two ends'; at a kept end it is the other's, and the kept one does
-	 * not move. Two kept vertices are not collapsed even where they share a place.
+	 * [n] by rank, >= 1; INFINITY: kept. NULL: all 1. A vertex has the largest of its members' and weighs as much as
+	 * all of them together. The factor is the larger of the two ends'; at a kept end it is the other's, and the kept
+	 * one does not move. Two kept vertices are not collapsed even where they share a place.
 	 */
 	const double *importance;
 	/*
@@ -30,15 +30,18 @@ typedef struct ty_influence
 	double alignment; /* finite, >= 0: an edge that leaves a row counts 1 + alignment times as long */
 	ty_status (*find_rows)(const void *context, const ty_mesh *mesh, ty_rows *rows);
 	const void *context; /* of find_rows */
-	/* Whether the segment from a to b, which differ, crosses a barrier; the same for b to a. NULL: no barriers. */
-	bool (*crosses)(const ty_barriers *barriers, ty_position a, ty_position b);
+	/*
+	 * Whether the edge from a to b, which differ, crosses a barrier, or one of the two ways to where they would be merged:
+	 * that is on the edge, but for rounding. The same with a and b exchanged. NULL: no barriers.
+	 */
+	bool (*crosses)(const ty_barriers *barriers, ty_position a, ty_position b, ty_position merged);
 	const ty_barriers *barriers;
 } ty_influence;
 
 /*
- * What importances weigh: whole multiples of 2^-exponent, so fine that the sum over the group stays just below 2^62 (for
- * a million buildings 41 bits for the largest). Sums of them are exact. An importance below the unit counts as one
- * unit; a kept building's weight is never used.
+ * What importances weigh: whole multiples of 2^-exponent, so fine that the sum over the group stays just below 2^62
+ * (for a million buildings 41 bits for the largest). Sums of them are exact. An importance below the unit counts as
+ * one unit; a kept building's weight is never used.
  */
 int ty_weight_exponent(const double *importance, size_t n);
 int64_t ty_weight(double importance, int exponent);
