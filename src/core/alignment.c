@@ -27,6 +27,7 @@
  * Liechtenstein and Leipzig. Lengths are multiples of the smaller building's side, the square root of its area.
  */
 #define REACH 4.5			   /* neighbours' centres are no farther apart: houses in gardens have 2 to 3.5 */
+#define BESIDE 2.25			   /* a small building that is looked past is no farther: half the reach */
 #define SIZE_RATIO 2.0		   /* of areas of neighbours */
 #define ORIENTATION 0.939	   /* cosine: 20 degrees between neighbours */
 #define SQUARE_RATIO 0.5	   /* of two ratios multiplied: from here on the longer side may be either */
@@ -153,6 +154,15 @@ consider(const search *s, const ty_trait *of, uint32_t w, neighbourhood *near)
 	insert_neighbour(near, n);
 }
 
+/* whether a building is smaller and so near that the next house of a row may stand behind it */
+static bool
+is_beside(const ty_trait *of, const ty_trait *small)
+{
+	double x = (double) small->place.x - of->place.x, y = (double) small->place.y - of->place.y;
+
+	return small->area < of->area && x * x + y * y <= BESIDE * BESIDE * of->area;
+}
+
 /* Adds what is beside the small building `small` to v's neighbours. */
 static void
 look_past(const search *s, uint32_t v, uint32_t small, neighbourhood *near)
@@ -188,7 +198,7 @@ find_neighbours(const search *s, uint32_t v, neighbourhood *near)
 			continue;
 		if (same_size(of, &s->trait[w]))
 			consider(s, of, w, near);
-		else if (s->trait[w].area < of->area)
+		else if (is_beside(of, &s->trait[w]))
 			look_past(s, v, w, near);
 	} while ((h = ty_next_around(s->mesh, h)) != first);
 }
