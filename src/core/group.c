@@ -366,7 +366,7 @@ find_rows(const void *context, const ty_mesh *mesh, ty_rows *rows)
 
 	if (trait == NULL)
 		return TY_NO_MEMORY;
-	ty_traits(g->buildings, g->order, mesh->vertices, &g->grid, trait);
+	ty_traits(g->buildings, g->order, mesh, &g->grid, trait);
 	status = ty_rows_detect(mesh->env, mesh, trait, rows);
 	ty_release(mesh->env, trait);
 	return status;
