@@ -1,5 +1,5 @@
 /*
- * aggregate.c - the aggregates typify and typify_placeholders.
+ * aggregate.c - the aggregates typify, typify_placeholders and typify_hierarchy.
  *
  * A state is the measures of a group's buildings, in any order. The transition function measures a row and adds it;
  * combine appends; the final functions put the buildings in canonical order and so give the same answer however
@@ -7,14 +7,9 @@
  */
 #include "compat.h"
 
-#include "access/htup_details.h"
 #include "catalog/pg_type.h"
-#include "funcapi.h"
 #include "miscadmin.h"
-#include "utils/array.h"
-#include "utils/lsyscache.h"
 #include "utils/memutils.h"
-#include "utils/typcache.h"
 
 #include "backend.h"
 #include "call.h"
@@ -22,8 +17,10 @@
 #include "core/group.h"
 #include "core/mesh.h"
 #include "geometry.h"
+#include "hierarchy.h"
 #include "options.h"
 #include "progress.h"
+#include "row_array.h"
 
 /* The array's first size in bytes, good for nine buildings: there may be 100 000 groups of about that many. */
 #define FIRST_SIZE 512
@@ -174,10 +171,12 @@ typedef struct row_layout
 	int id;
 	int parameters;
 	int importance;
+	bool without_scale; /* parameters: where the scale would be */
 } row_layout;
 
 static const row_layout geometry_layout = {.parameters = 2};
 static const row_layout placeholders_layout = {.id = 2, .parameters = 3, .importance = 6};
+static const row_layout hierarchy_layout = {.id = 2, .parameters = 2, .importance = 5, .without_scale = true};
 
 /* The context of states; the one preamble of all five functions. */
 static MemoryContext
@@ -210,7 +209,7 @@ static state *
 state_for_row(FunctionCallInfo fcinfo, MemoryContext context, const row_layout *layout, int32 srid)
 {
 	state *s = PG_ARGISNULL(0) ? NULL : (state *) PG_GETARG_POINTER(0);
-	ty_call *call = ty_call_of(fcinfo, layout->parameters, 1);
+	ty_call *call = ty_call_of(fcinfo, layout->parameters, 1, !layout->without_scale);
 	const ty_parameters *parameters = ty_call_parameters(call, &fcinfo->args[layout->parameters], s == NULL);
 
 	if (s == NULL)
@@ -307,81 +306,42 @@ check_ids(const state *s)
 	pfree(unused);
 }
 
-/* The fields of the composite typify_placeholder, in order. */
-enum
-{
-	FIELD_ID = 0,
-	FIELD_GEOM,
-	FIELD_MEMBER_COUNT,
-	FIELD_MEMBERS,
-	FIELD_AREA,
-	FIELD_WIDTH,
-	FIELD_LENGTH,
-	FIELD_ORIENTATION,
-	FIELDS
-};
-
 #define MEMBERS_SIZE(count) (ARR_OVERHEAD_NONULLS(1) + (size_t) (count) * sizeof(int64))
-/* header with null bitmap, fixed fields, alignment: what a row takes at most besides geometry and members */
-#define ROW_OVERHEAD (MAXALIGN(SizeofHeapTupleHeader + 1) + 6 * sizeof(float8) + 3 * MAXIMUM_ALIGNOF)
+/* what a row takes at most besides geometry and members */
+#define ROW_SIZE (TY_ROW_OVERHEAD + 6 * sizeof(float8))
 
 /* The array under construction. */
 typedef struct row_writer
 {
-	TupleDesc shape;
-	Datum *values; /* of a row, with dropped attributes behind the fields */
-	bool *nulls;
+	ty_row_array rows;
 	const state *group;
 	const ty_result *result;
-	ArrayType *array; /* room for the most it can take; what is not written takes no memory */
-	size_t used;
 	void *polygon;		/* TY_POLYGON_DATUM_SIZE bytes, used for every row */
 	ArrayType *members; /* room for the largest placeholder's */
 	uint32 *unused;		/* as long, zero: what their sort moves along */
 } row_writer;
 
 static size_t
-array_size_bound(const ty_result *result)
+rows_size(const ty_result *result)
 {
-	size_t size = ARR_OVERHEAD_NONULLS(1);
+	size_t size = 0;
 
 	for (size_t k = 0; k < result->count; k++)
-		size += ROW_OVERHEAD + TY_POLYGON_DATUM_SIZE + MEMBERS_SIZE(result->placeholders[k].count);
+		size += ROW_SIZE + TY_POLYGON_DATUM_SIZE + MEMBERS_SIZE(result->placeholders[k].count);
 	return size;
-}
-
-static void
-array_header(ArrayType *array, size_t size, Oid element, int count)
-{
-	SET_VARSIZE(array, size);
-	array->ndim = 1;
-	array->dataoffset = 0; /* no nulls */
-	array->elemtype = element;
-	ARR_DIMS(array)[0] = count;
-	ARR_LBOUND(array)[0] = 1;
 }
 
 static void
 writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const state *s, const ty_result *result)
 {
-	Oid element = get_element_type(get_func_rettype(fcinfo->flinfo->fn_oid));
-	size_t size = array_size_bound(result);
 	uint32 most = 0;
 
-	if (!AllocSizeIsValid(size))
-		ty_refuse_size();
+	ty_row_array_begin(&writer->rows, fcinfo, TY_PLACEHOLDER_FIELDS, "typify_placeholder", rows_size(result),
+					   result->count);
 	for (size_t k = 0; k < result->count; k++)
 		most = Max(most, result->placeholders[k].count);
-	writer->shape = lookup_rowtype_tupdesc(element, -1);
-	ty_check_shape(writer->shape, FIELDS, "typify_placeholder");
-	writer->values = palloc0(writer->shape->natts * sizeof(Datum));
-	writer->nulls = palloc0(writer->shape->natts * sizeof(bool));
-	memset(writer->nulls + FIELDS, true, writer->shape->natts - FIELDS);
 	writer->group = s;
 	writer->result = result;
-	writer->array = palloc(size);
-	array_header(writer->array, size, element, (int) result->count);
-	writer->used = ARR_OVERHEAD_NONULLS(1);
 	writer->polygon = palloc(TY_POLYGON_DATUM_SIZE);
 	writer->members = palloc(MEMBERS_SIZE(most));
 	writer->unused = palloc0(most * sizeof(uint32));
@@ -394,7 +354,7 @@ writer_members(row_writer *writer, const ty_placeholder *placeholder)
 	const uint32 *members = writer->result->members + placeholder->first;
 	uint64 *ids;
 
-	array_header(writer->members, MEMBERS_SIZE(placeholder->count), INT8OID, (int) placeholder->count);
+	ty_array_header(writer->members, MEMBERS_SIZE(placeholder->count), INT8OID, (int) placeholder->count);
 	ids = (uint64 *) ARR_DATA_PTR(writer->members);
 	for (uint32 i = 0; i < placeholder->count; i++)
 		ids[i] = sortable_id(writer->group->buildings[members[i]].id);
@@ -404,49 +364,25 @@ writer_members(row_writer *writer, const ty_placeholder *placeholder)
 	return PointerGetDatum(writer->members);
 }
 
-/* Rows start aligned; the bytes between them are zero, so that equal arrays are the same bytes. */
-static void
-writer_append(row_writer *writer, HeapTuple row)
-{
-	char *at = (char *) writer->array + writer->used;
-
-	memcpy(at, row->t_data, row->t_len);
-	memset(at + row->t_len, 0, MAXALIGN(row->t_len) - row->t_len);
-	writer->used += MAXALIGN(row->t_len);
-}
-
 static void
 writer_add(row_writer *writer, const ty_placeholder *placeholder)
 {
 	const state *s = writer->group;
-	bool drawn = placeholder->area > 0;
-	HeapTuple row;
 
-	writer->values[FIELD_ID] = Int64GetDatum(s->buildings[placeholder->representative].id);
-	writer->nulls[FIELD_GEOM] = !drawn;
-	writer->values[FIELD_GEOM] = drawn ? ty_write_rectangle(writer->polygon, placeholder, s->srid) : (Datum) 0;
-	writer->values[FIELD_MEMBER_COUNT] = Int32GetDatum((int32) placeholder->count);
-	writer->values[FIELD_MEMBERS] = writer_members(writer, placeholder);
-	writer->values[FIELD_AREA] = Float8GetDatum(placeholder->area);
-	writer->values[FIELD_WIDTH] = Float8GetDatum(placeholder->width);
-	writer->values[FIELD_LENGTH] = Float8GetDatum(placeholder->length);
-	writer->values[FIELD_ORIENTATION] = Float8GetDatum(ty_orientation_degrees(placeholder->ux, placeholder->uy));
-	row = heap_form_tuple(writer->shape, writer->values, writer->nulls);
-	writer_append(writer, row);
-	heap_freetuple(row);
+	ty_placeholder_values(placeholder, s->buildings[placeholder->representative].id, s->srid, writer->polygon,
+						  writer->rows.values, writer->rows.nulls);
+	writer->rows.values[TY_PLACEHOLDER_MEMBERS] = writer_members(writer, placeholder);
+	writer->rows.nulls[TY_PLACEHOLDER_MEMBERS] = false;
+	ty_row_array_add(&writer->rows);
 }
 
 static Datum
 writer_end(row_writer *writer)
 {
-	ReleaseTupleDesc(writer->shape);
 	pfree(writer->polygon);
 	pfree(writer->members);
 	pfree(writer->unused);
-	pfree(writer->values);
-	pfree(writer->nulls);
-	SET_VARSIZE(writer->array, writer->used);
-	return PointerGetDatum(writer->array);
+	return ty_row_array_end(&writer->rows);
 }
 
 static Datum
@@ -477,6 +413,13 @@ Datum
 typify_placeholders_transition(PG_FUNCTION_ARGS)
 {
 	return add_row(fcinfo, &placeholders_layout);
+}
+
+PG_FUNCTION_INFO_V1(typify_hierarchy_transition);
+Datum
+typify_hierarchy_transition(PG_FUNCTION_ARGS)
+{
+	return add_row(fcinfo, &hierarchy_layout);
 }
 
 PG_FUNCTION_INFO_V1(typify_combine);
@@ -545,4 +488,17 @@ typify_placeholders_final(PG_FUNCTION_ARGS)
 	array = placeholder_array(fcinfo, s, &result);
 	ty_result_free(&ty_backend_environment, &result);
 	PG_RETURN_DATUM(array);
+}
+
+PG_FUNCTION_INFO_V1(typify_hierarchy_final);
+Datum
+typify_hierarchy_final(PG_FUNCTION_ARGS)
+{
+	const state *s = PG_ARGISNULL(0) ? NULL : (const state *) PG_GETARG_POINTER(0);
+
+	aggregate_context(fcinfo);
+	if (s == NULL)
+		PG_RETURN_NULL();
+	check_ids(s);
+	PG_RETURN_DATUM(ty_node_array(fcinfo, s->buildings, s->count, &s->parameters));
 }

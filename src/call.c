@@ -31,13 +31,13 @@ argument_expression(FunctionCallInfo fcinfo, int argument)
  * them, and they are compared for every row.
  */
 static ty_constancy
-call_constancy(FunctionCallInfo fcinfo, int first, int given)
+call_constancy(FunctionCallInfo fcinfo, int first, int given, bool with_scale)
 {
 	bool aggregate = AggGetAggref(fcinfo) != NULL;
 	PlannedStmt *statement = aggregate ? ((AggState *) fcinfo->context)->ss.ps.state->es_plannedstmt : NULL;
 	ty_constancy least = TY_PER_QUERY;
 
-	for (int i = 0; i < given; i++)
+	for (int i = with_scale ? SCALE : S_U; i < given; i++)
 	{
 		Node *expression = argument_expression(fcinfo, first + i);
 
@@ -47,7 +47,7 @@ call_constancy(FunctionCallInfo fcinfo, int first, int given)
 }
 
 ty_call *
-ty_call_of(FunctionCallInfo fcinfo, int first, int geometry)
+ty_call_of(FunctionCallInfo fcinfo, int first, int geometry, bool with_scale)
 {
 	FmgrInfo *function = fcinfo->flinfo;
 	ty_call *call = function->fn_extra;
@@ -56,8 +56,9 @@ ty_call_of(FunctionCallInfo fcinfo, int first, int geometry)
 		return call;
 	call = MemoryContextAllocZero(function->fn_mcxt, sizeof(ty_call));
 	call->context = function->fn_mcxt;
+	call->with_scale = with_scale;
 	call->given = Min(PG_NARGS() - first, TY_CALL_ARGUMENTS);
-	call->constancy = call_constancy(fcinfo, first, call->given);
+	call->constancy = call_constancy(fcinfo, first, call->given, with_scale);
 	ty_srid_cache_begin(&call->srids, function->fn_oid, geometry, function->fn_mcxt);
 	function->fn_extra = call;
 	return call;
@@ -66,7 +67,7 @@ ty_call_of(FunctionCallInfo fcinfo, int first, int geometry)
 static bool
 same_arguments(const ty_call *call, const NullableDatum *arguments)
 {
-	for (int i = 0; i < call->given; i++)
+	for (int i = call->with_scale ? SCALE : S_U; i < call->given; i++)
 	{
 		const NullableDatum *old = &call->arguments[i], *new = &arguments[i];
 		bool number = i != OPTIONS;
@@ -101,15 +102,18 @@ static ty_parameters
 parse(const ty_call *call, const NullableDatum *arguments)
 {
 	bool options_given = call->given > OPTIONS && !arguments[OPTIONS].isnull;
+	Datum options = options_given ? arguments[OPTIONS].value : (Datum) 0;
+	double s_u = call->given > S_U ? DatumGetFloat8(arguments[S_U].value) : 0;
 	ty_parameters parameters;
 
-	if (arguments[SCALE].isnull)
+	if (call->with_scale && arguments[SCALE].isnull)
 		ty_refuse_null("scale");
 	if (call->given > S_U && arguments[S_U].isnull)
 		ty_refuse_null("s_u");
-	ty_resolve_parameters(DatumGetFloat8(arguments[SCALE].value),
-						  call->given > S_U ? DatumGetFloat8(arguments[S_U].value) : 0,
-						  options_given ? arguments[OPTIONS].value : (Datum) 0, !options_given, &parameters);
+	if (call->with_scale)
+		ty_resolve_parameters(DatumGetFloat8(arguments[SCALE].value), s_u, options, !options_given, &parameters);
+	else
+		ty_resolve_hierarchy_parameters(s_u, options, !options_given, &parameters);
 	return parameters;
 }
 

@@ -17,7 +17,8 @@ typedef struct ty_call
 {
 	MemoryContext context; /* lives as long as the plan node */
 	ty_constancy constancy;
-	int given; /* 1 .. TY_CALL_ARGUMENTS */
+	bool with_scale; /* false: a hierarchy's, whose first argument is not looked at */
+	int given;		 /* 1 .. TY_CALL_ARGUMENTS */
 	bool parsed;
 	NullableDatum arguments[TY_CALL_ARGUMENTS]; /* what parameters were parsed from; unused when constant */
 	ty_parameters parameters;
@@ -27,9 +28,10 @@ typedef struct ty_call
 
 /*
  * The call of an aggregate's transition function or of a window function, made when asked for the first time.
- * The parameters start at argument `first`; the geometry is argument `geometry`.
+ * The parameters start at argument `first`, the scale's place, also where there is none; the geometry is argument
+ * `geometry`.
  */
-extern ty_call *ty_call_of(FunctionCallInfo fcinfo, int first, int geometry);
+extern ty_call *ty_call_of(FunctionCallInfo fcinfo, int first, int geometry, bool with_scale);
 
 /*
  * The parameters for a row; arguments holds call->given values. They stay where they are: another generation

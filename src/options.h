@@ -17,6 +17,12 @@
 extern void ty_resolve_parameters(double scale, double s_u, Datum options, bool options_null,
 								  ty_parameters *parameters);
 
+/*
+ * The same for a hierarchy, which is one for all scales: the scale becomes source_scale, and options that depend on it
+ * are refused.
+ */
+extern void ty_resolve_hierarchy_parameters(double s_u, Datum options, bool options_null, ty_parameters *parameters);
+
 extern bool ty_same_parameters(const ty_parameters *a, const ty_parameters *b);
 
 /*

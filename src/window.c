@@ -181,7 +181,8 @@ typify_cluster(PG_FUNCTION_ARGS)
 	p = WinGetPartitionLocalMemory(window, sizeof(partition));
 	if (!p->done)
 	{
-		p->cluster = cluster_partition(ty_call_of(fcinfo, PARAMETERS, GEOMETRY), window, GetMemoryChunkContext(p));
+		p->cluster =
+			cluster_partition(ty_call_of(fcinfo, PARAMETERS, GEOMETRY, true), window, GetMemoryChunkContext(p));
 		p->done = true;
 	}
 	cluster = p->cluster[WinGetCurrentPosition(window)];

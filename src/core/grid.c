@@ -396,3 +396,18 @@ ty_canonical_order(const ty_environment *env, const ty_building *buildings, size
 	}
 	return status;
 }
+
+ty_status
+ty_order_buildings(const ty_environment *env, const ty_building *buildings, size_t n, const ty_grid *grid,
+				   uint32_t **order, ty_position **position)
+{
+	uint64_t *keys = ty_allocate_array(env, n, sizeof *keys);
+	ty_status status = TY_NO_MEMORY;
+
+	*order = ty_allocate_array(env, n, sizeof **order);
+	*position = ty_allocate_array(env, n, sizeof **position);
+	if (keys != NULL && *order != NULL && *position != NULL)
+		status = ty_canonical_order(env, buildings, n, grid, *order, *position, keys);
+	ty_release(env, keys);
+	return status;
+}

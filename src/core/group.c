@@ -1,6 +1,7 @@
 /* group.c - see group.h */
 #include "group.h"
 
+#include "areas.h"
 #include "collapse.h"
 #include "grid.h"
 
@@ -9,42 +10,15 @@
 
 /* ---- exact sums of areas ---- */
 
-/*
- * Areas are summed as whole multiples of 2^-97 of a power of two above the group's largest, in 128 bits, which
- * TY_MAX_VERTICES of them fit into: exact for every area above 2^-44 of the largest, and in no case dependent on
- * the order. An area below 2^-97 of the largest adds nothing.
- */
-typedef struct area_scale
-{
-	double to_units, from_units;
-} area_scale;
-
-#define AREA_BITS 97
-#define LEAST_AREA_EXPONENT (-900) /* below, 1 / unit would overflow */
-
-static area_scale
-fit_area_scale(const ty_building *buildings, size_t n)
-{
-	double largest = 0;
-	int exponent;
-
-	for (size_t i = 0; i < n; i++)
-		largest = buildings[i].area > largest ? buildings[i].area : largest;
-	(void) frexp(largest, &exponent);
-	if (exponent < LEAST_AREA_EXPONENT)
-		exponent = LEAST_AREA_EXPONENT;
-	return (area_scale){ldexp(1, AREA_BITS - exponent), ldexp(1, exponent - AREA_BITS)};
-}
-
 /* sum over n buildings; members, if given, are their indices */
 static double
-sum_areas(const ty_building *buildings, const uint32_t *members, size_t n, area_scale scale)
+sum_areas(const ty_building *buildings, const uint32_t *members, size_t n, ty_area_scale scale)
 {
 	__int128 sum = 0;
 
 	for (size_t i = 0; i < n; i++)
-		sum += (__int128) (buildings[members == NULL ? i : members[i]].area * scale.to_units);
-	return (double) sum * scale.from_units;
+		sum += ty_area_units(scale, buildings[members == NULL ? i : members[i]].area);
+	return ty_area_of_units(scale, sum);
 }
 
 /* ---- one placeholder ---- */
@@ -54,7 +28,7 @@ typedef struct group
 	const ty_building *buildings;
 	const ty_parameters *parameters;
 	ty_grid grid;
-	area_scale scale;
+	ty_area_scale scale;
 	double area_factor;
 	uint32_t *order;	   /* [n] building by rank */
 	ty_position *position; /* [n] by rank */
@@ -269,20 +243,6 @@ find_stop(const group *g, size_t n)
 	return stop;
 }
 
-static ty_status
-order_group(const ty_environment *env, group *g, size_t n)
-{
-	uint64_t *keys = ty_allocate_array(env, n, sizeof *keys);
-	ty_status status = TY_NO_MEMORY;
-
-	g->order = ty_allocate_array(env, n, sizeof *g->order);
-	g->position = ty_allocate_array(env, n, sizeof *g->position);
-	if (keys != NULL && g->order != NULL && g->position != NULL)
-		status = ty_canonical_order(env, g->buildings, n, &g->grid, g->order, g->position, keys);
-	ty_release(env, keys);
-	return status;
-}
-
 ty_status
 ty_typify(const ty_environment *env, const ty_building *buildings, size_t n, const ty_parameters *p, ty_result *result)
 {
@@ -296,8 +256,8 @@ ty_typify(const ty_environment *env, const ty_building *buildings, size_t n, con
 	status = ty_grid_fit(buildings, n, &g.grid);
 	if (status != TY_OK)
 		return status;
-	g.scale = fit_area_scale(buildings, n);
-	status = order_group(env, &g, n);
+	g.scale = ty_fit_area_scale(buildings, n);
+	status = ty_order_buildings(env, buildings, n, &g.grid, &g.order, &g.position);
 	if (status == TY_OK)
 		status = ty_collapse(env, g.position, n, p->s_u, find_stop(&g, n), false, NULL, NULL, &sequence);
 	if (status == TY_OK)

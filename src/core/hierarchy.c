@@ -1,0 +1,381 @@
+/*
+ * hierarchy.c - see hierarchy.h
+ *
+ * The merge sequence is replayed three times: forwards for what a node is made of, backwards for the numbers of the
+ * leaves below it, and once more for its life span. While it is being made a leaf goes by its rank.
+ */
+#include "hierarchy.h"
+
+#include "collapse.h"
+#include "quantile.h"
+
+#include <math.h>
+#include <string.h>
+
+/* what a vertex stands for at some step, kept at its rank */
+typedef struct cluster
+{
+	__int128 area; /* sum, in units of the area scale */
+	int64_t x, y;  /* sums of grid positions */
+	uint32_t count;
+	uint32_t representative; /* rank */
+	uint32_t node;
+} cluster;
+
+/* the two nodes that a merge joins: that of the kept rank, that of the one which is gone */
+typedef struct children
+{
+	uint32_t kept, gone;
+} children;
+
+typedef struct replay
+{
+	const ty_environment *env;
+	const ty_parameters *parameters;
+	ty_hierarchy *h;
+	ty_sequence sequence;
+	ty_area_scale scale;
+	cluster *clusters;	/* [n] */
+	children *children; /* [merges] */
+} replay;
+
+static bool
+allocate(const ty_environment *env, ty_hierarchy *h)
+{
+	h->leaf = ty_allocate_array(env, h->n, sizeof *h->leaf);
+	h->parent = ty_allocate_array(env, h->n + h->merges, sizeof *h->parent);
+	h->first = ty_allocate_array(env, h->n + h->merges, sizeof *h->first);
+	h->count = ty_allocate_array(env, h->merges, sizeof *h->count);
+	h->representative = ty_allocate_array(env, h->merges, sizeof *h->representative);
+	h->position = ty_allocate_array(env, h->merges, sizeof *h->position);
+	h->area = ty_allocate_array(env, h->merges, sizeof *h->area);
+	h->cost = ty_allocate_array(env, h->merges, sizeof *h->cost);
+	h->scale = ty_allocate_array(env, h->merges, sizeof *h->scale);
+	return h->leaf != NULL && h->parent != NULL && h->first != NULL && h->count != NULL && h->representative != NULL &&
+		   h->position != NULL && h->area != NULL && h->cost != NULL && h->scale != NULL;
+}
+
+static const ty_building *
+building_of_rank(const ty_hierarchy *h, uint32_t rank)
+{
+	return &h->buildings[h->order[rank]];
+}
+
+/* ---- forwards: what a node is made of ---- */
+
+static void
+begin_clusters(replay *r, const ty_position *position)
+{
+	for (uint32_t rank = 0; rank < r->h->n; rank++)
+	{
+		r->clusters[rank] = (cluster){.area = ty_area_units(r->scale, building_of_rank(r->h, rank)->area),
+									  .x = position[rank].x,
+									  .y = position[rank].y,
+									  .count = 1,
+									  .representative = rank,
+									  .node = rank};
+		r->h->parent[rank] = TY_NONE;
+	}
+}
+
+/* the one with the larger area, then the smaller rank */
+static uint32_t
+better_representative(const ty_hierarchy *h, uint32_t a, uint32_t b)
+{
+	double area_a = building_of_rank(h, a)->area, area_b = building_of_rank(h, b)->area;
+
+	if (area_a != area_b)
+		return area_a > area_b ? a : b;
+	return a < b ? a : b;
+}
+
+/* sum / count, rounded half up to the grid */
+static int32_t
+mean_position(int64_t sum, uint32_t count)
+{
+	return (int32_t) ((2 * sum + count) / (2 * (int64_t) count));
+}
+
+/* sum or mean; the median is found later */
+static double
+area_of(const replay *r, const cluster *c)
+{
+	return ty_area_of_units(r->scale, c->area) / (r->parameters->area_statistic == TY_SUM ? 1 : (double) c->count);
+}
+
+static void
+join(replay *r, size_t step)
+{
+	ty_hierarchy *h = r->h;
+	cluster *kept = &r->clusters[r->sequence.kept[step]];
+	const cluster *gone = &r->clusters[r->sequence.gone[step]];
+	uint32_t node = (uint32_t) (h->n + step);
+
+	r->children[step] = (children){kept->node, gone->node};
+	h->parent[kept->node] = h->parent[gone->node] = node;
+	h->parent[node] = TY_NONE;
+	kept->area += gone->area;
+	kept->x += gone->x;
+	kept->y += gone->y;
+	kept->count += gone->count;
+	kept->representative = better_representative(h, kept->representative, gone->representative);
+	kept->node = node;
+	h->count[step] = kept->count;
+	h->representative[step] = kept->representative;
+	h->position[step] = (ty_position){mean_position(kept->x, kept->count), mean_position(kept->y, kept->count)};
+	h->area[step] = area_of(r, kept);
+}
+
+static ty_status
+join_all(replay *r)
+{
+	double greatest = 0;
+
+	for (size_t step = 0; step < r->h->merges; step++)
+	{
+		if (ty_interrupted_at(r->env, step))
+			return TY_INTERRUPTED;
+		join(r, step);
+		greatest = fmax(greatest, r->sequence.cost[step]);
+		r->h->cost[step] = greatest * r->h->grid.cell;
+		if (!isfinite(r->h->area[step]))
+			return TY_NOT_FINITE;
+	}
+	return TY_OK;
+}
+
+/* ---- backwards: the leaves ---- */
+
+/* Trees stand in the order of their smallest ranks; below a node what was kept comes before what is gone. */
+static void
+number_leaves(replay *r)
+{
+	ty_hierarchy *h = r->h;
+	uint32_t next = 0;
+
+	for (uint32_t rank = 0; rank < h->n; rank++)
+	{
+		const cluster *c = &r->clusters[rank];
+
+		if (h->parent[c->node] != TY_NONE)
+			continue;
+		h->first[c->node] = next;
+		next += c->count;
+	}
+	for (size_t step = h->merges; step-- > 0;)
+	{
+		children below = r->children[step];
+		uint32_t first = h->first[h->n + step];
+
+		h->first[below.kept] = first;
+		h->first[below.gone] = first + (below.kept < h->n ? 1 : h->count[below.kept - h->n]);
+	}
+	for (uint32_t rank = 0; rank < h->n; rank++)
+		h->leaf[h->first[rank]] = rank;
+}
+
+/* ---- medians ---- */
+
+/* Sorts the areas of the leaves; values[leaf] becomes the place of its area. Areas ascend as their bits do. */
+static ty_status
+sort_areas(const replay *r, uint64_t *areas, uint32_t *values)
+{
+	const ty_hierarchy *h = r->h;
+	uint32_t *leaves = ty_allocate_array(r->env, h->n, sizeof *leaves);
+	ty_status status;
+
+	if (leaves == NULL)
+		return TY_NO_MEMORY;
+	for (uint32_t leaf = 0; leaf < h->n; leaf++)
+	{
+		memcpy(&areas[leaf], &building_of_rank(h, h->leaf[leaf])->area, sizeof *areas);
+		leaves[leaf] = leaf;
+	}
+	status = ty_sort_keys(r->env, areas, leaves, h->n);
+	for (uint32_t place = 0; status == TY_OK && place < h->n; place++)
+		values[leaves[place]] = place;
+	ty_release(r->env, leaves);
+	return status;
+}
+
+static double
+area_at(const uint64_t *areas, const ty_quantiles *q, uint32_t first, uint32_t count, uint32_t k)
+{
+	double area;
+
+	memcpy(&area, &areas[ty_quantile(q, first, count, k)], sizeof area);
+	return area;
+}
+
+static ty_status
+find_medians(replay *r)
+{
+	ty_hierarchy *h = r->h;
+	uint64_t *areas = ty_allocate_array(r->env, h->n, sizeof *areas);
+	uint32_t *values = ty_allocate_array(r->env, h->n, sizeof *values);
+	ty_quantiles q = {0};
+	ty_status status = areas == NULL || values == NULL ? TY_NO_MEMORY : sort_areas(r, areas, values);
+
+	if (status == TY_OK)
+		status = ty_quantiles_prepare(r->env, values, h->n, &q);
+	for (size_t step = 0; status == TY_OK && step < h->merges; step++)
+	{
+		uint32_t first = h->first[h->n + step], count = h->count[step];
+		double upper = area_at(areas, &q, first, count, count / 2);
+
+		h->area[step] = count % 2 == 1 ? upper : 0.5 * area_at(areas, &q, first, count, count / 2 - 1) + 0.5 * upper;
+		if (ty_interrupted_at(r->env, step))
+			status = TY_INTERRUPTED;
+	}
+	ty_quantiles_free(r->env, &q);
+	ty_release(r->env, values);
+	ty_release(r->env, areas);
+	return status;
+}
+
+/* ---- life spans ---- */
+
+static ty_status
+find_scales(replay *r)
+{
+	ty_hierarchy *h = r->h;
+
+	for (size_t step = 0; step < h->merges; step++)
+	{
+		if (ty_interrupted_at(r->env, step))
+			return TY_INTERRUPTED;
+		/* before the merge there are n - step */
+		h->scale[step] = ty_scale_below(h->n, h->n - step, r->parameters);
+		if (step % 65536 == 0)
+			ty_progress(r->env, TY_DRAWING, step, h->merges);
+	}
+	return TY_OK;
+}
+
+/* ---- the whole group ---- */
+
+static ty_status
+replay_sequence(replay *r, const ty_position *position)
+{
+	ty_status status = TY_NO_MEMORY;
+
+	r->h->merges = r->sequence.count;
+	r->clusters = ty_allocate_array(r->env, r->h->n, sizeof *r->clusters);
+	r->children = ty_allocate_array(r->env, r->h->merges, sizeof *r->children);
+	if (allocate(r->env, r->h) && r->clusters != NULL && r->children != NULL)
+	{
+		begin_clusters(r, position);
+		status = join_all(r);
+	}
+	if (status == TY_OK)
+		number_leaves(r);
+	ty_release(r->env, r->clusters);
+	ty_release(r->env, r->children);
+	if (status == TY_OK && r->parameters->area_statistic == TY_MEDIAN)
+		status = find_medians(r);
+	return status == TY_OK ? find_scales(r) : status;
+}
+
+/* Collapses a copy of the positions, which end as something else. */
+static ty_status
+collapse_whole(replay *r, const ty_position *position)
+{
+	ty_position *copy = ty_allocate_array(r->env, r->h->n, sizeof *copy);
+	ty_stop stop = {.count = 1};
+	ty_status status;
+
+	if (copy == NULL)
+		return TY_NO_MEMORY;
+	memcpy(copy, position, r->h->n * sizeof *copy);
+	status = ty_collapse(r->env, copy, r->h->n, r->parameters->s_u, stop, true, NULL, NULL, &r->sequence);
+	ty_release(r->env, copy);
+	return status;
+}
+
+ty_status
+ty_hierarchy_build(const ty_environment *env, const ty_building *buildings, size_t n, const ty_parameters *p,
+				   ty_hierarchy *h)
+{
+	replay r = {.env = env, .parameters = p, .h = h};
+	ty_position *position = NULL;
+	ty_status status;
+
+	*h = (ty_hierarchy){.n = n, .buildings = buildings, .source_scale = p->source_scale};
+	if (n > TY_MAX_VERTICES)
+		return TY_TOO_MANY;
+	status = ty_grid_fit(buildings, n, &h->grid);
+	if (status != TY_OK)
+		return status;
+	r.scale = ty_fit_area_scale(buildings, n);
+	status = ty_order_buildings(env, buildings, n, &h->grid, &h->order, &position);
+	if (status == TY_OK)
+		status = collapse_whole(&r, position);
+	if (status == TY_OK)
+		status = replay_sequence(&r, position);
+	ty_sequence_free(env, &r.sequence);
+	ty_release(env, position);
+	if (status != TY_OK)
+		ty_hierarchy_free(env, h);
+	return status;
+}
+
+void
+ty_hierarchy_free(const ty_environment *env, ty_hierarchy *h)
+{
+	ty_release(env, h->order);
+	ty_release(env, h->leaf);
+	ty_release(env, h->parent);
+	ty_release(env, h->first);
+	ty_release(env, h->count);
+	ty_release(env, h->representative);
+	ty_release(env, h->position);
+	ty_release(env, h->area);
+	ty_release(env, h->cost);
+	ty_release(env, h->scale);
+	*h = (ty_hierarchy){0};
+}
+
+/* what leaves and inner nodes have alike */
+static ty_node
+common_node(const ty_hierarchy *h, uint32_t slot, uint32_t representative)
+{
+	const ty_building *b = building_of_rank(h, representative);
+	uint32_t parent = h->parent[slot];
+
+	return (ty_node){.parent = parent,
+					 .representative = h->order[representative],
+					 .first_leaf = h->first[slot],
+					 .ratio = b->ratio,
+					 .ux = b->ux,
+					 .uy = b->uy,
+					 .scale_to = parent == TY_NONE ? INFINITY : h->scale[parent - h->n]};
+}
+
+ty_node
+ty_hierarchy_node(const ty_hierarchy *h, size_t number)
+{
+	uint32_t rank = number < h->n ? h->leaf[number] : 0;
+	size_t step = number - h->n;
+	const ty_building *b;
+	ty_node node;
+
+	if (number < h->n)
+	{
+		node = common_node(h, rank, rank);
+		b = &h->buildings[node.representative];
+		node.member_count = 1;
+		node.x = b->x;
+		node.y = b->y;
+		node.area = b->area;
+		node.scale_from = h->source_scale;
+		return node;
+	}
+	node = common_node(h, (uint32_t) number, h->representative[step]);
+	node.member_count = h->count[step];
+	node.x = ty_grid_x(&h->grid, h->position[step].x);
+	node.y = ty_grid_y(&h->grid, h->position[step].y);
+	node.area = h->area[step];
+	node.cost = h->cost[step];
+	node.scale_from = h->scale[step];
+	return node;
+}

@@ -1,0 +1,65 @@
+/*
+ * hierarchy.h - the whole merge sequence of one group as a tree of nodes with life spans over the scale (spec 6.1).
+ *
+ * A node is a vertex of the mesh for as long as it is there. Leaves are the buildings, numbered 0 .. n - 1 in tree
+ * order, so that the members of a node are a range of leaves; inner nodes follow in the order in which they appear.
+ */
+#ifndef TY_HIERARCHY_H
+#define TY_HIERARCHY_H
+
+#include "areas.h"
+#include "grid.h"
+#include "mesh.h"
+#include "placeholder.h"
+
+/* Everything in ground units. */
+typedef struct ty_node
+{
+	uint32_t parent;		 /* TY_NONE: a root */
+	uint32_t representative; /* index into the caller's buildings */
+	uint32_t member_count, first_leaf;
+	double x, y;	   /* the vertex; of a leaf its building's very centroid, off the grid */
+	double area;	   /* statistic of the members' areas, unscaled */
+	double ratio;	   /* of the representative, whatever the shape */
+	double ux, uy;	   /* of the representative */
+	double cost;	   /* greatest cost of a merge up to that which made the node; 0 for leaves */
+	double scale_from; /* alive for scale_from <= scale < scale_to */
+	double scale_to;   /* INFINITY for roots */
+} ty_node;
+
+/* Flat arrays; ty_hierarchy_node puts a node together. Merge i makes node n + i. */
+typedef struct ty_hierarchy
+{
+	size_t n, merges;
+	const ty_building *buildings; /* the caller's */
+	double source_scale;
+	ty_grid grid;
+	uint32_t *order;		  /* [n] building by rank */
+	uint32_t *leaf;			  /* [n] rank by leaf */
+	uint32_t *parent;		  /* [n + merges] by rank, then by merge */
+	uint32_t *first;		  /* [n + merges] first leaf, likewise */
+	uint32_t *count;		  /* [merges] members */
+	uint32_t *representative; /* [merges] rank */
+	ty_position *position;	  /* [merges] */
+	double *area;			  /* [merges] */
+	double *cost;			  /* [merges] */
+	double *scale;			  /* [merges] from which on the merge has happened */
+} ty_hierarchy;
+
+/*
+ * The whole way of one group, down to a single vertex where the influences let it. p->scale and p->psi are not looked
+ * at. n >= 1. The arrays come from env; ty_hierarchy_free gives them back.
+ */
+ty_status ty_hierarchy_build(const ty_environment *env, const ty_building *buildings, size_t n, const ty_parameters *p,
+							 ty_hierarchy *h);
+void ty_hierarchy_free(const ty_environment *env, ty_hierarchy *h);
+
+static inline size_t
+ty_hierarchy_nodes(const ty_hierarchy *h)
+{
+	return h->n + h->merges;
+}
+
+ty_node ty_hierarchy_node(const ty_hierarchy *h, size_t node);
+
+#endif
