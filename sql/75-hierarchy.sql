@@ -101,6 +101,22 @@ CREATE AGGREGATE typify_hierarchy(
 COMMENT ON AGGREGATE typify_hierarchy(geometry, bigint, double precision, typify_options, double precision) IS
 'The hierarchy of the buildings of a group: every vertex that there is at any scale, with its life span, as an array of typify_node in the order of their numbers. Those alive at a scale are the placeholders that typify_placeholders gives at that scale, exactly; typify_at draws them from a table that typify_build_hierarchy makes. The same bytes for any order of rows, serial or parallel. NULL for a group without a usable row. id: a key of the building inside its group. s_u: density control in 0 .. 1. options: see typify_options; NULL sets none. importance: of the building; see typify_placeholders. A row whose geometry is NULL or EMPTY is passed over. Errors: as of typify_placeholders; 22023 for options that make the result depend on one scale: count, min_distance, the black-white rule; 54000 above 1 GB, four million buildings in a group.';
 
+CREATE FUNCTION typify_building_hash(geom geometry, id bigint)
+RETURNS bigint
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE COST 10;
+COMMENT ON FUNCTION typify_building_hash(geometry, bigint) IS
+'A hash of what a hierarchy takes from a building: its id, centroid, area and rectangle. NULL for EMPTY. Errors: as of typify for geometries.';
+
+CREATE FUNCTION typify_leaf_hash(representative bigint, x double precision, y double precision, area double precision,
+	ratio double precision, ux double precision, uy double precision)
+RETURNS bigint
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE;
+COMMENT ON FUNCTION typify_leaf_hash(bigint, double precision, double precision, double precision, double precision,
+	double precision, double precision) IS
+'What typify_building_hash says of the building of which this leaf was made.';
+
 CREATE FUNCTION typify_reach(area double precision, ratio double precision, psi double precision)
 RETURNS double precision
 AS 'MODULE_PATHNAME'
@@ -214,6 +230,15 @@ $$;
 COMMENT ON FUNCTION typify_hierarchy_parts(regclass) IS
 'The table of nodes and its companion of groups, named with schema, and the JSON of the comment. Errors: 22004 for NULL; 42809 for what is no hierarchy; 42P01 when the companion is missing.';
 
+CREATE FUNCTION typify_hierarchy_srid(groups regclass) RETURNS integer
+LANGUAGE sql STABLE PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT postgis_typmod_srid(atttypmod) FROM pg_attribute
+	WHERE attrelid = groups AND attname = 'extent' AND atttypmod >= 0;
+END;
+COMMENT ON FUNCTION typify_hierarchy_srid(regclass) IS
+'The SRID of a hierarchy, from the type of the extent in its table of groups.';
+
 CREATE FUNCTION typify_hierarchy_create(nodes text, groups text, definition json) RETURNS regclass
 LANGUAGE plpgsql
 SET search_path FROM CURRENT AS
@@ -225,7 +250,7 @@ BEGIN
 		'uy float8 NOT NULL, cost float8 NOT NULL, scale_from float8 NOT NULL, scale_to float8 NOT NULL, '
 		'place point NOT NULL, PRIMARY KEY (group_id, node))', nodes);
 	EXECUTE format('CREATE TABLE %s (group_id integer PRIMARY KEY, grp text, count bigint NOT NULL, exponent float8, '
-		'psi float8, state bigint, extent %s, latitude float8)', groups,
+		'psi float8, state bigint, reach float8, extent %s, latitude float8)', groups,
 		typify_layer_geometry(typify_hierarchy_layer(definition::jsonb)));
 	EXECUTE format('COMMENT ON TABLE %s IS %L', nodes, definition);
 	EXECUTE format('COMMENT ON TABLE %s IS %L', groups, format('The groups of %s.', nodes));
@@ -233,7 +258,7 @@ BEGIN
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_create(text, text, json) IS
-'The two empty tables of a hierarchy. Of nodes: group_id and the fields of typify_node, and place, by which they are found (typify_place). Of groups: grp, the group as text; count of its buildings; exponent and psi, where they are the group''s own; state, a hash of its buildings, NULL until its nodes are there; extent of its buildings; latitude of the middle of that, NULL where the SRID is not known.';
+'The two empty tables of a hierarchy. Of nodes: group_id and the fields of typify_node, and place, by which they are found (typify_place). Of groups: grp, the group as text; count of its buildings; exponent and psi, where they are the group''s own; state, a hash of its buildings (typify_building_hash of each, combined by bit_xor), NULL until its nodes are there; reach, the greatest of its nodes (typify_reach); extent of its vertices; latitude of the middle of that, NULL where the SRID is not known.';
 
 -- A group counts as changed when its buildings, exponent or psi are not what its nodes were made of, and when it is
 -- named. Where nothing is calibrated, and groups are named, nothing else is looked at.
@@ -269,7 +294,7 @@ BEGIN
 			SELECT typify_group_key(grp) AS key, * FROM %s
 			WHERE $2 IS NULL OR typify_group_key(grp) = ANY ($2)
 		), now AS (
-			SELECT typify_group_key(grp) AS key, sum(hash_record(b)) AS state FROM %s AS b WHERE $3 GROUP BY grp
+			SELECT typify_group_key(grp) AS key, bit_xor(typify_building_hash(geom, id)) AS state FROM %s AS b WHERE $3 GROUP BY grp
 		)
 		SELECT known.group_id, coalesce(known.grp, level.grp), coalesce(level.n, 0),
 			CASE WHEN $4 THEN level.exponent END, CASE WHEN $4 THEN level.psi END
@@ -348,22 +373,28 @@ BEGIN
 				WHEN exponent IS NULL AND psi IS NULL THEN $2
 				ELSE typify_options_with($2, exponent, psi, NULL) END AS options
 			FROM %2$s WHERE group_id = ANY ($1) OFFSET 0
-		), made AS MATERIALIZED (
-			SELECT todo.group_id, todo.psi, typify_hierarchy(b.geom, b.id, $3, todo.options) AS list, count(*) AS count,
-				sum(hash_record(b)) AS state, ST_Extent(b.geom) AS extent, min(ST_SRID(b.geom)) AS srid
-			FROM %3$s AS b JOIN todo ON todo.key = typify_group_key(b.grp) GROUP BY todo.group_id, todo.psi
-		), noted AS (
-			UPDATE %2$s AS g SET count = made.count, state = made.state, extent = ST_MakeEnvelope(ST_XMin(made.extent),
-				ST_YMin(made.extent), ST_XMax(made.extent), ST_YMax(made.extent), srid)
-			FROM made WHERE made.group_id = g.group_id
 		)
 		INSERT INTO %1$s
 		SELECT group_id, (n).node, (n).parent, (n).representative, (n).member_count, (n).first_leaf, (n).x, (n).y,
 			(n).area, (n).ratio, (n).ux, (n).uy, (n).cost, (n).scale_from, (n).scale_to,
 			typify_place((n).x, (n).y, typify_reach((n).area, (n).ratio, psi), (n).scale_to, $4)
-		FROM (SELECT group_id, psi, unnest(list) AS n FROM made) AS one',
-		part.nodes, part.groups, typify_layer_source(layer, todo))
+		FROM (
+			SELECT todo.group_id, todo.psi, unnest(typify_hierarchy(b.geom, b.id, $3, todo.options)) AS n
+			FROM %3$s AS b JOIN todo ON todo.key = typify_group_key(b.grp) GROUP BY todo.group_id, todo.psi
+		) AS one', part.nodes, part.groups, typify_layer_source(layer, todo))
 	USING ids, given, (part.definition->>'s_u')::float8, (layer->>'scale')::float8;
+	EXECUTE format(
+		'WITH made AS (
+			SELECT n.group_id, count(*) FILTER (WHERE member_count = 1) AS count,
+				bit_xor(typify_leaf_hash(representative, x, y, area, ratio, ux, uy)) FILTER (WHERE member_count = 1) AS state,
+				max(typify_reach(area, ratio, coalesce(g.psi, $2, 0.75))) AS reach,
+				min(x) AS west, min(y) AS south, max(x) AS east, max(y) AS north
+			FROM %1$s AS n JOIN %2$s AS g USING (group_id) WHERE n.group_id = ANY ($1) GROUP BY n.group_id
+		)
+		UPDATE %2$s AS g SET count = made.count, state = made.state, reach = made.reach,
+			extent = ST_MakeEnvelope(west, south, east, north, $3)
+		FROM made WHERE made.group_id = g.group_id', part.nodes, part.groups)
+	USING ids, given.psi, typify_hierarchy_srid(part.groups::regclass);
 	-- what lost its buildings meanwhile
 	EXECUTE format('DELETE FROM %s WHERE group_id = ANY ($1) AND state IS NULL', part.groups) USING ids;
 	EXECUTE format('UPDATE %s SET latitude = typify_latitude(extent) WHERE group_id = ANY ($1)', part.groups) USING ids;
@@ -414,19 +445,22 @@ SET extra_float_digits = 1 AS
 $$
 DECLARE
 	part record;
+	ranked boolean;
 	bounds record;
 	definition json;
 BEGIN
 	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', typify_table_name(hierarchy, 'hierarchy'));
 	part := typify_hierarchy_parts(hierarchy);
-	IF part.definition->>'life_spans' = 'ranked' THEN
+	ranked := part.definition->>'life_spans' = 'ranked';
+	IF ranked THEN
 		PERFORM typify_hierarchy_rank(hierarchy);
 	END IF;
-	EXECUTE format('SELECT coalesce(max(typify_reach(area, ratio, coalesce(g.psi, $1, 0.75))), 0) AS reach,
-			coalesce(max(scale_to) FILTER (WHERE scale_to < ''Infinity''), $2) AS top
-		FROM %s AS n JOIN %s AS g USING (group_id)', part.nodes, part.groups)
-	INTO bounds USING (part.definition->'options'->>'psi')::float8,
-		(typify_hierarchy_layer(part.definition)->>'scale')::float8;
+	EXECUTE format('SELECT coalesce(max(reach), 0) AS reach, coalesce(max(typify_scale_below(count, 2,
+			typify_options_with($1, exponent, NULL, NULL))), $2) AS top
+		FROM (SELECT %s AS exponent, %s AS count, max(reach) AS reach FROM %s GROUP BY 1) AS g',
+		CASE WHEN ranked THEN '($1).exponent' ELSE 'coalesce(exponent, ($1).exponent)' END,
+		CASE WHEN ranked THEN 'sum(count)::bigint' ELSE 'max(count)' END, part.groups)
+	INTO bounds USING typify_hierarchy_options(part.definition), (typify_hierarchy_layer(part.definition)->>'scale')::float8;
 	SELECT json_object_agg(key, value) INTO definition
 	FROM (SELECT key, value FROM json_each(obj_description(hierarchy, 'pg_class')::json)
 		WHERE key NOT IN ('finished', 'reach', 'top')
@@ -435,12 +469,12 @@ BEGIN
 	IF typify_layer_index(hierarchy, 'place') IS NULL THEN
 		EXECUTE format('CREATE INDEX ON %s USING gist (place)', part.nodes);
 	END IF;
-	EXECUTE format('ANALYZE %s', part.nodes);
+	EXECUTE format('ANALYZE %s (group_id, node, scale_from, scale_to, place)', part.nodes);
 	EXECUTE format('ANALYZE %s', part.groups);
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_complete(regclass) IS
-'What a hierarchy gets when its nodes are there: ranked life spans, the index by place, statistics, and a comment without "finished" that says what a look-up must know of all nodes: the greatest reach (typify_reach) and the greatest scale_to that is not Infinity.';
+'What a hierarchy gets when its nodes are there: ranked life spans, the index by place, statistics, and a comment without "finished" that says what a look-up must know of all nodes: the greatest reach (typify_reach), and as top a scale that no scale_to but Infinity exceeds.';
 
 CREATE FUNCTION typify_hierarchy_begin(caller_schema name, name text, definition json, batch integer,
 	OUT hierarchy regclass, OUT groups integer, OUT done integer)

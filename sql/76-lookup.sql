@@ -39,8 +39,7 @@ BEGIN
 	options := typify_hierarchy_options(definition);
 	-- refuses a scale that is not allowed
 	PERFORM typify_area_factor(scale, options);
-	srid := postgis_typmod_srid(atttypmod) FROM pg_attribute
-		WHERE attrelid = groups::regclass AND attname = 'extent' AND atttypmod >= 0;
+	srid := typify_hierarchy_srid(groups::regclass);
 	metres_per_unit := typify_metres_per_unit(srid);
 	PERFORM typify_check_box(box, srid);
 	areas := typify_search(box(point(ST_XMin(box), ST_YMin(box)), point(ST_XMax(box), ST_YMax(box))), scale, scale,

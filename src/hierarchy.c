@@ -15,6 +15,7 @@
 #include <math.h>
 
 #include "catalog/pg_type.h"
+#include "common/hashfn.h"
 #include "funcapi.h"
 #include "miscadmin.h"
 #include "utils/datum.h"
@@ -54,6 +55,8 @@ enum
 /* exactly, but for what the null bitmap of a root takes */
 #define NODE_SIZE (MAXALIGN(SizeofHeapTupleHeader + 2) + 4 * sizeof(int32) + sizeof(int64) + 9 * sizeof(float8))
 
+#define FETCHED_AHEAD 16
+
 static void
 add_node(ty_row_array *rows, const ty_hierarchy *h, size_t number)
 {
@@ -87,40 +90,65 @@ ty_node_array(FunctionCallInfo fcinfo, const ty_building *buildings, size_t n, c
 	ty_row_array_begin(&rows, fcinfo, NODE_FIELDS, "typify_node", 2 * n * NODE_SIZE, 2 * n - 1);
 	ty_build_hierarchy(buildings, n, p, &h);
 	ARR_DIMS(rows.array)[0] = (int) ty_hierarchy_nodes(&h);
-	for (size_t number = 0; number < ty_hierarchy_nodes(&h); number++)
+	for (size_t place = 0; place < ty_hierarchy_nodes(&h); place++)
 	{
 		CHECK_FOR_INTERRUPTS();
-		add_node(&rows, &h, number);
+		ty_hierarchy_fetch(&h, place + FETCHED_AHEAD);
+		add_node(&rows, &h, ty_hierarchy_stored(&h, place));
 	}
 	ty_hierarchy_free(&ty_backend_environment, &h);
 	return ty_row_array_end(&rows);
+}
+
+/* --- what a leaf was made of --- */
+
+/* A building's measures have no bytes between them. */
+StaticAssertDecl(sizeof(ty_building) == 6 * sizeof(double) + sizeof(int64), "ty_building is padded");
+
+static int64
+hash_of_building(const ty_building *building)
+{
+	return (int64) hash_bytes_extended((const unsigned char *) building, sizeof(*building), 0);
+}
+
+PG_FUNCTION_INFO_V1(typify_building_hash);
+Datum
+typify_building_hash(PG_FUNCTION_ARGS)
+{
+	ty_building building;
+	int32 srid;
+
+	if (!ty_measure_datum(PG_GETARG_DATUM(0), &building, &srid, NULL))
+		PG_RETURN_NULL();
+	building.id = PG_GETARG_INT64(1);
+	PG_RETURN_INT64(hash_of_building(&building));
+}
+
+PG_FUNCTION_INFO_V1(typify_leaf_hash);
+Datum
+typify_leaf_hash(PG_FUNCTION_ARGS)
+{
+	ty_building building = {.id = PG_GETARG_INT64(0),
+							.x = PG_GETARG_FLOAT8(1),
+							.y = PG_GETARG_FLOAT8(2),
+							.area = PG_GETARG_FLOAT8(3),
+							.ratio = PG_GETARG_FLOAT8(4),
+							.ux = PG_GETARG_FLOAT8(5),
+							.uy = PG_GETARG_FLOAT8(6)};
+
+	PG_RETURN_INT64(hash_of_building(&building));
 }
 
 /* --- places in the index --- */
 
 /* One copy of the plane beside the other: far more than coordinates come to. Where they do, places coincide. */
 #define BAND_SHIFT 268435456.0
-#define ROOT_BAND 63 /* of what lives to infinity */
-#define MOST_BAND (ROOT_BAND - 1)
 /* Classes hold what reaches less than 16, 128, 1024 ... units: few, of a factor that a tile hardly notices. */
 #define LEAST_CLASS_BITS 4
 #define CLASS_BITS 3
 #define MOST_CLASS 20
 /* Reaches are measured with this psi; one that draws larger counts as reaching further. */
 #define REACH_PSI TY_DEFAULT_PSI
-
-/* Two bands for every doubling of the scale. */
-static int
-band_of(double scale, double source_scale)
-{
-	double enlargement = scale / source_scale;
-	int exponent;
-
-	if (isinf(scale))
-		return ROOT_BAND;
-	(void) frexp(enlargement * enlargement, &exponent);
-	return Max(0, Min(exponent - 1, MOST_BAND));
-}
 
 static int
 class_of(double reach)
@@ -150,7 +178,7 @@ typify_place(PG_FUNCTION_ARGS)
 {
 	Point *place = palloc(sizeof(Point));
 
-	place->x = PG_GETARG_FLOAT8(0) + BAND_SHIFT * band_of(PG_GETARG_FLOAT8(3), PG_GETARG_FLOAT8(4));
+	place->x = PG_GETARG_FLOAT8(0) + BAND_SHIFT * ty_band(PG_GETARG_FLOAT8(3), PG_GETARG_FLOAT8(4));
 	place->y = PG_GETARG_FLOAT8(1) + BAND_SHIFT * class_of(PG_GETARG_FLOAT8(2));
 	PG_RETURN_POINT_P(place);
 }
@@ -199,7 +227,8 @@ static bool
 copies_are_apart(const search *s, double wider)
 {
 	double width = s->box.high.x - s->box.low.x + 2 * wider, height = s->box.high.y - s->box.low.y + 2 * wider;
-	double farthest = fmax(fmax(fabs(s->box.low.x), fabs(s->box.high.x)), fmax(fabs(s->box.low.y), fabs(s->box.high.y)));
+	double farthest =
+		fmax(fmax(fabs(s->box.low.x), fabs(s->box.high.x)), fmax(fabs(s->box.low.y), fabs(s->box.high.y)));
 
 	return width < BAND_SHIFT - 1 && height < BAND_SHIFT - 1 && farthest < 1e15;
 }
@@ -208,7 +237,7 @@ copies_are_apart(const search *s, double wider)
 static BOX
 box_of_all(const search *s, int most_class, double wider)
 {
-	BOX box = shifted_box(s, 0, 0, wider), last = shifted_box(s, ROOT_BAND, most_class, wider);
+	BOX box = shifted_box(s, 0, 0, wider), last = shifted_box(s, TY_ROOT_BAND, most_class, wider);
 
 	box.high = last.high;
 	return box;
@@ -226,17 +255,17 @@ box_datum(BOX box)
 static int
 list_boxes(const search *s, int most_class, Datum *boxes)
 {
-	int first = band_of(s->low, s->source_scale), last = band_of(s->top, s->source_scale);
+	int first = ty_band(s->low, s->source_scale), last = ty_band(s->top, s->source_scale);
 	int count = 0;
 
-	for (int class = 0; class <= most_class; class++)
+	for (int class = 0; class <= most_class; class ++)
 	{
 		double limit = ldexp(1, LEAST_CLASS_BITS + CLASS_BITS * class);
 		double wider = widening(s, class == most_class ? s->reach : limit);
 
-		for (int band = first; band <= last && band < ROOT_BAND; band++)
+		for (int band = first; band <= last && band < TY_ROOT_BAND; band++)
 			boxes[count++] = box_datum(shifted_box(s, band, class, wider));
-		boxes[count++] = box_datum(shifted_box(s, ROOT_BAND, class, wider));
+		boxes[count++] = box_datum(shifted_box(s, TY_ROOT_BAND, class, wider));
 	}
 	return count;
 }
@@ -254,7 +283,7 @@ typify_search(PG_FUNCTION_ARGS)
 				.lod200_scale = PG_GETARG_FLOAT8(6),
 				.min_side = PG_GETARG_FLOAT8(7)};
 	int most_class = class_of(s.reach), count = 1;
-	Datum *boxes = palloc(sizeof(Datum) * (most_class + 1) * (ROOT_BAND + 1));
+	Datum *boxes = palloc(sizeof(Datum) * (most_class + 1) * (TY_ROOT_BAND + 1));
 	double widest = widening(&s, s.reach);
 
 	if (copies_are_apart(&s, widest))

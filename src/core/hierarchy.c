@@ -12,15 +12,18 @@
 #include <math.h>
 #include <string.h>
 
-/* what a vertex stands for at some step, kept at its rank */
+/* what a vertex stands for at some step, kept at its rank: as much as a line of the cache */
 typedef struct cluster
 {
-	__int128 area; /* sum, in units of the area scale */
-	int64_t x, y;  /* sums of grid positions */
+	__int128 area;	/* sum, in units of the area scale */
+	int64_t x, y;	/* sums of grid positions */
+	double largest; /* area of the representative */
 	uint32_t count;
 	uint32_t representative; /* rank */
 	uint32_t node;
 } cluster;
+
+#define AHEAD 16 /* steps whose clusters or nodes are fetched before they are needed: they lie in any order */
 
 /* the two nodes that a merge joins: that of the kept rank, that of the one which is gone */
 typedef struct children
@@ -68,9 +71,12 @@ begin_clusters(replay *r, const ty_position *position)
 {
 	for (uint32_t rank = 0; rank < r->h->n; rank++)
 	{
-		r->clusters[rank] = (cluster){.area = ty_area_units(r->scale, building_of_rank(r->h, rank)->area),
+		double area = building_of_rank(r->h, rank)->area;
+
+		r->clusters[rank] = (cluster){.area = ty_area_units(r->scale, area),
 									  .x = position[rank].x,
 									  .y = position[rank].y,
+									  .largest = area,
 									  .count = 1,
 									  .representative = rank,
 									  .node = rank};
@@ -78,15 +84,14 @@ begin_clusters(replay *r, const ty_position *position)
 	}
 }
 
-/* the one with the larger area, then the smaller rank */
-static uint32_t
-better_representative(const ty_hierarchy *h, uint32_t a, uint32_t b)
+/* The representative is the one with the larger area, of equal ones that with the smaller rank. */
+static void
+take_representative(cluster *c, const cluster *other)
 {
-	double area_a = building_of_rank(h, a)->area, area_b = building_of_rank(h, b)->area;
-
-	if (area_a != area_b)
-		return area_a > area_b ? a : b;
-	return a < b ? a : b;
+	if (other->largest < c->largest || (other->largest == c->largest && c->representative < other->representative))
+		return;
+	c->largest = other->largest;
+	c->representative = other->representative;
 }
 
 /* sum / count, rounded half up to the grid */
@@ -118,7 +123,7 @@ join(replay *r, size_t step)
 	kept->x += gone->x;
 	kept->y += gone->y;
 	kept->count += gone->count;
-	kept->representative = better_representative(h, kept->representative, gone->representative);
+	take_representative(kept, gone);
 	kept->node = node;
 	h->count[step] = kept->count;
 	h->representative[step] = kept->representative;
@@ -135,6 +140,11 @@ join_all(replay *r)
 	{
 		if (ty_interrupted_at(r->env, step))
 			return TY_INTERRUPTED;
+		if (step + AHEAD < r->h->merges)
+		{
+			__builtin_prefetch(&r->clusters[r->sequence.kept[step + AHEAD]]);
+			__builtin_prefetch(&r->clusters[r->sequence.gone[step + AHEAD]]);
+		}
 		join(r, step);
 		greatest = fmax(greatest, r->sequence.cost[step]);
 		r->h->cost[step] = greatest * r->h->grid.cell;
@@ -167,6 +177,11 @@ number_leaves(replay *r)
 		children below = r->children[step];
 		uint32_t first = h->first[h->n + step];
 
+		if (step >= AHEAD)
+		{
+			__builtin_prefetch(&h->first[r->children[step - AHEAD].kept], 1);
+			__builtin_prefetch(&h->first[r->children[step - AHEAD].gone], 1);
+		}
 		h->first[below.kept] = first;
 		h->first[below.gone] = first + (below.kept < h->n ? 1 : h->count[below.kept - h->n]);
 	}
@@ -252,6 +267,33 @@ find_scales(replay *r)
 	return TY_OK;
 }
 
+/* ---- the order in which nodes are best stored ---- */
+
+/* Merges by band, then by first leaf: what is drawn at a scale, and near one another, is stored together. */
+static ty_status
+find_storage_order(replay *r)
+{
+	ty_hierarchy *h = r->h;
+	uint64_t *keys = ty_allocate_array(r->env, h->merges, sizeof *keys);
+	ty_status status = TY_NO_MEMORY;
+
+	h->stored = ty_allocate_array(r->env, h->merges, sizeof *h->stored);
+	if (keys != NULL && h->stored != NULL)
+	{
+		for (size_t step = 0; step < h->merges; step++)
+		{
+			uint32_t parent = h->parent[h->n + step];
+			uint64_t band = (uint64_t) ty_band(parent == TY_NONE ? INFINITY : h->scale[parent - h->n], h->source_scale);
+
+			keys[step] = band << 32 | h->first[h->n + step];
+			h->stored[step] = (uint32_t) step;
+		}
+		status = ty_sort_keys(r->env, keys, h->stored, h->merges);
+	}
+	ty_release(r->env, keys);
+	return status;
+}
+
 /* ---- the whole group ---- */
 
 static ty_status
@@ -273,7 +315,9 @@ replay_sequence(replay *r, const ty_position *position)
 	ty_release(r->env, r->children);
 	if (status == TY_OK && r->parameters->area_statistic == TY_MEDIAN)
 		status = find_medians(r);
-	return status == TY_OK ? find_scales(r) : status;
+	if (status == TY_OK)
+		status = find_scales(r);
+	return status == TY_OK ? find_storage_order(r) : status;
 }
 
 /* Collapses a copy of the positions, which end as something else. */
@@ -332,6 +376,7 @@ ty_hierarchy_free(const ty_environment *env, ty_hierarchy *h)
 	ty_release(env, h->area);
 	ty_release(env, h->cost);
 	ty_release(env, h->scale);
+	ty_release(env, h->stored);
 	*h = (ty_hierarchy){0};
 }
 
@@ -349,6 +394,28 @@ common_node(const ty_hierarchy *h, uint32_t slot, uint32_t representative)
 					 .ux = b->ux,
 					 .uy = b->uy,
 					 .scale_to = parent == TY_NONE ? INFINITY : h->scale[parent - h->n]};
+}
+
+int
+ty_band(double scale, double source_scale)
+{
+	double enlargement = scale / source_scale;
+	int exponent;
+
+	if (isinf(scale))
+		return TY_ROOT_BAND;
+	(void) frexp(enlargement * enlargement, &exponent);
+	exponent = isinf(enlargement * enlargement) ? TY_ROOT_BAND : exponent;
+	return exponent < 1 ? 0 : exponent < TY_ROOT_BAND ? exponent - 1 : TY_ROOT_BAND - 1;
+}
+
+void
+ty_hierarchy_fetch(const ty_hierarchy *h, size_t place)
+{
+	if (place < h->n)
+		__builtin_prefetch(building_of_rank(h, h->leaf[place]));
+	else if (place < ty_hierarchy_nodes(h))
+		__builtin_prefetch(building_of_rank(h, h->representative[h->stored[place - h->n]]));
 }
 
 ty_node

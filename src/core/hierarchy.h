@@ -44,6 +44,7 @@ typedef struct ty_hierarchy
 	double *area;			  /* [merges] */
 	double *cost;			  /* [merges] */
 	double *scale;			  /* [merges] from which on the merge has happened */
+	uint32_t *stored;		  /* [merges] the order in which they are best stored */
 } ty_hierarchy;
 
 /*
@@ -61,5 +62,21 @@ ty_hierarchy_nodes(const ty_hierarchy *h)
 }
 
 ty_node ty_hierarchy_node(const ty_hierarchy *h, size_t node);
+
+/*
+ * The order in which nodes are best stored, so that a look-up finds in few pages what it needs: the number of the node
+ * at each place. Leaves come first, as they are numbered; inner nodes by band, then as their leaves are numbered.
+ */
+static inline size_t
+ty_hierarchy_stored(const ty_hierarchy *h, size_t place)
+{
+	return place < h->n ? place : h->n + h->stored[place - h->n];
+}
+/* Fetches what the node at a place takes, some time before it is asked for. place may be beyond the last. */
+void ty_hierarchy_fetch(const ty_hierarchy *h, size_t place);
+
+/* Life spans by the scale at which they end: two bands for every doubling of the scale, the last one for roots. */
+#define TY_ROOT_BAND 63
+int ty_band(double scale, double source_scale);
 
 #endif
