@@ -3,6 +3,7 @@
 CREATE TYPE typify_node AS (
 	node integer,
 	parent integer,
+	kept boolean,
 	representative bigint,
 	member_count integer,
 	first_leaf integer,
@@ -17,7 +18,7 @@ CREATE TYPE typify_node AS (
 	scale_to double precision
 );
 COMMENT ON TYPE typify_node IS
-'A node of a hierarchy: a vertex of the mesh for as long as it is there. node: its number; leaves, the buildings, are 0 to n - 1 in tree order, inner nodes follow in the order in which they appear. parent: the node it is merged into, NULL of a root. representative: id of the building that stands for it, of a leaf its own. member_count, first_leaf: its members are the leaves first_leaf to first_leaf + member_count - 1. x, y: the vertex. area: statistic of the members'' areas (area_statistic), unscaled. ratio, ux, uy: short by long side and direction of the longer side of the representative''s rectangle. cost: the greatest of a merge up to the one that made the node, 0 of leaves. scale_from, scale_to: it is there for scale_from <= scale < scale_to, leaves from source_scale on, roots to Infinity. Ground units throughout; scales are denominators.';
+'A node of a hierarchy: a vertex of the mesh for as long as it is there. node: its number; leaves, the buildings, are 0 to n - 1 in tree order, inner nodes follow in the order in which they appear. parent: the node it is merged into, NULL of a root. kept: its representative has importance Infinity, so that the node stands there and is drawn with its own area. representative: id of the building that stands for it, of a leaf its own. member_count, first_leaf: its members are the leaves first_leaf to first_leaf + member_count - 1. x, y: the vertex. area: statistic of the members'' areas (area_statistic), unscaled, or of a kept one its own. ratio, ux, uy: short by long side and direction of the longer side of the representative''s rectangle. cost: the greatest of a merge up to the one that made the node, 0 of leaves. scale_from, scale_to: it is there for scale_from <= scale < scale_to, leaves from source_scale on, roots to Infinity. Ground units throughout; scales are denominators.';
 
 CREATE FUNCTION typify_hierarchy_final(internal)
 RETURNS typify_node[]
@@ -48,7 +49,7 @@ CREATE AGGREGATE typify_hierarchy(
 	PARALLEL = SAFE
 );
 COMMENT ON AGGREGATE typify_hierarchy(geometry, bigint, double precision) IS
-'The hierarchy of the buildings of a group: every vertex that there is at any scale, with its life span, as an array of typify_node in the order of their numbers. Those alive at a scale are the placeholders that typify_placeholders gives at that scale, exactly; typify_at draws them from a table that typify_build_hierarchy makes. The same bytes for any order of rows, serial or parallel. NULL for a group without a usable row. id: a key of the building inside its group. s_u: density control in 0 .. 1. A row whose geometry is NULL or EMPTY is passed over. Errors: as of typify_placeholders; 22023 for options that make the result depend on one scale: count, min_distance, the black-white rule; 54000 above 1 GB, four million buildings in a group.';
+'The hierarchy of the buildings of a group: every vertex that there is at any scale, with its life span, as an array of typify_node in the order of their numbers. Those alive at a scale are the placeholders that typify_placeholders gives at that scale, exactly; typify_at draws them from a table that typify_build_hierarchy makes. The same bytes for any order of rows, serial or parallel. NULL for a group without a usable row. id: a key of the building inside its group. s_u: density control in 0 .. 1. A row whose geometry is NULL or EMPTY is passed over. Errors: as of typify_placeholders; 22023 for options that make the result depend on one scale: count, min_distance, the black-white rule, min_area, keep_area; 0A000 for shapes with outlines; 54000 above 1 GB, four million buildings in a group.';
 
 CREATE FUNCTION typify_hierarchy_transition(internal, geometry, bigint, double precision, typify_options)
 RETURNS internal
@@ -73,7 +74,7 @@ CREATE AGGREGATE typify_hierarchy(
 	PARALLEL = SAFE
 );
 COMMENT ON AGGREGATE typify_hierarchy(geometry, bigint, double precision, typify_options) IS
-'The hierarchy of the buildings of a group: every vertex that there is at any scale, with its life span, as an array of typify_node in the order of their numbers. Those alive at a scale are the placeholders that typify_placeholders gives at that scale, exactly; typify_at draws them from a table that typify_build_hierarchy makes. The same bytes for any order of rows, serial or parallel. NULL for a group without a usable row. id: a key of the building inside its group. s_u: density control in 0 .. 1. options: see typify_options; NULL sets none. A row whose geometry is NULL or EMPTY is passed over. Errors: as of typify_placeholders; 22023 for options that make the result depend on one scale: count, min_distance, the black-white rule; 54000 above 1 GB, four million buildings in a group.';
+'The hierarchy of the buildings of a group: every vertex that there is at any scale, with its life span, as an array of typify_node in the order of their numbers. Those alive at a scale are the placeholders that typify_placeholders gives at that scale, exactly; typify_at draws them from a table that typify_build_hierarchy makes. The same bytes for any order of rows, serial or parallel. NULL for a group without a usable row. id: a key of the building inside its group. s_u: density control in 0 .. 1. options: see typify_options; NULL sets none. A row whose geometry is NULL or EMPTY is passed over. Errors: as of typify_placeholders; 22023 for options that make the result depend on one scale: count, min_distance, the black-white rule, min_area, keep_area; 0A000 for shapes with outlines; 54000 above 1 GB, four million buildings in a group.';
 
 CREATE FUNCTION typify_hierarchy_transition(internal, geometry, bigint, double precision, typify_options, double precision)
 RETURNS internal
@@ -99,7 +100,7 @@ CREATE AGGREGATE typify_hierarchy(
 	PARALLEL = SAFE
 );
 COMMENT ON AGGREGATE typify_hierarchy(geometry, bigint, double precision, typify_options, double precision) IS
-'The hierarchy of the buildings of a group: every vertex that there is at any scale, with its life span, as an array of typify_node in the order of their numbers. Those alive at a scale are the placeholders that typify_placeholders gives at that scale, exactly; typify_at draws them from a table that typify_build_hierarchy makes. The same bytes for any order of rows, serial or parallel. NULL for a group without a usable row. id: a key of the building inside its group. s_u: density control in 0 .. 1. options: see typify_options; NULL sets none. importance: of the building; see typify_placeholders. A row whose geometry is NULL or EMPTY is passed over. Errors: as of typify_placeholders; 22023 for options that make the result depend on one scale: count, min_distance, the black-white rule; 54000 above 1 GB, four million buildings in a group.';
+'The hierarchy of the buildings of a group: every vertex that there is at any scale, with its life span, as an array of typify_node in the order of their numbers. Those alive at a scale are the placeholders that typify_placeholders gives at that scale, exactly; typify_at draws them from a table that typify_build_hierarchy makes. The same bytes for any order of rows, serial or parallel. NULL for a group without a usable row. id: a key of the building inside its group. s_u: density control in 0 .. 1. options: see typify_options; NULL sets none. importance: of the building, as in typify_placeholders; Infinity keeps it. A row whose geometry is NULL or EMPTY is passed over. Errors: as of typify_placeholders; 22023 for options that make the result depend on one scale: count, min_distance, the black-white rule, min_area, keep_area; 0A000 for shapes with outlines; 54000 above 1 GB, four million buildings in a group.';
 
 CREATE FUNCTION typify_building_hash(geom geometry, id bigint)
 RETURNS bigint
@@ -144,13 +145,13 @@ COMMENT ON FUNCTION typify_search(box, double precision, double precision, doubl
 
 CREATE FUNCTION typify_node_placeholder(representative bigint, x double precision, y double precision,
 	area double precision, ratio double precision, ux double precision, uy double precision, member_count integer,
-	scale double precision, options typify_options, psi double precision, srid integer, metres_per_unit double precision)
+	kept boolean, scale double precision, options typify_options, psi double precision, srid integer, metres_per_unit double precision)
 RETURNS typify_placeholder
 AS 'MODULE_PATHNAME'
 LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
 COMMENT ON FUNCTION typify_node_placeholder(bigint, double precision, double precision, double precision,
-	double precision, double precision, double precision, integer, double precision, typify_options, double precision,
-	integer, double precision) IS
+	double precision, double precision, double precision, integer, boolean, double precision, typify_options,
+	double precision, integer, double precision) IS
 'A node of a hierarchy as it is drawn at a scale: the placeholder of typify_placeholders at that scale, but for members, which is NULL. psi: instead of that of options, unless it is NULL. metres_per_unit: of the SRID. NULL when anything else but options is. Errors: as of typify_placeholders for scale and options.';
 
 -- The comment of a hierarchy is that of a table layer (60-layers.sql) with a source instead of lod25 and life_spans
@@ -245,7 +246,7 @@ SET search_path FROM CURRENT AS
 $$
 BEGIN
 	EXECUTE format('CREATE TABLE %s (group_id integer NOT NULL, node integer NOT NULL, parent integer, '
-		'representative bigint NOT NULL, member_count integer NOT NULL, first_leaf integer NOT NULL, '
+		'kept boolean NOT NULL, representative bigint NOT NULL, member_count integer NOT NULL, first_leaf integer NOT NULL, '
 		'x float8 NOT NULL, y float8 NOT NULL, area float8 NOT NULL, ratio float8 NOT NULL, ux float8 NOT NULL, '
 		'uy float8 NOT NULL, cost float8 NOT NULL, scale_from float8 NOT NULL, scale_to float8 NOT NULL, '
 		'place point NOT NULL, PRIMARY KEY (group_id, node))', nodes);
@@ -375,7 +376,7 @@ BEGIN
 			FROM %2$s WHERE group_id = ANY ($1) OFFSET 0
 		)
 		INSERT INTO %1$s
-		SELECT group_id, (n).node, (n).parent, (n).representative, (n).member_count, (n).first_leaf, (n).x, (n).y,
+		SELECT group_id, (n).node, (n).parent, (n).kept, (n).representative, (n).member_count, (n).first_leaf, (n).x, (n).y,
 			(n).area, (n).ratio, (n).ux, (n).uy, (n).cost, (n).scale_from, (n).scale_to,
 			typify_place((n).x, (n).y, typify_reach((n).area, (n).ratio, psi), (n).scale_to, $4)
 		FROM (

@@ -55,7 +55,7 @@ LANGUAGE sql IMMUTABLE PARALLEL SAFE
 BEGIN ATOMIC
 	SELECT format('SELECT (p).id, (p).geom, (p).member_count, %3$s, (p).area, (p).width, (p).length, (p).orientation, grp '
 		'FROM (SELECT n.group_id, n.first_leaf, n.x, n.y, g.grp, typify_node_placeholder(n.representative, '
-			'n.x, n.y, n.area, n.ratio, n.ux, n.uy, n.member_count, $1, $2, g.psi, $3, $4) AS p '
+			'n.x, n.y, n.area, n.ratio, n.ux, n.uy, n.member_count, n.kept, $1, $2, g.psi, $3, $4) AS p '
 		'FROM %4$s JOIN %2$s AS g USING (group_id) '
 		'WHERE n.scale_from <= $1 AND n.scale_to > $1 OFFSET 0) AS alive WHERE %5$s',
 		nodes, groups,

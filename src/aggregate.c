@@ -1,15 +1,15 @@
 /*
  * aggregate.c - the aggregates typify, typify_placeholders and typify_hierarchy.
  *
- * A state is the measures of a group's buildings, in any order. The transition function measures a row and adds it;
- * combine appends; the final functions put the buildings in canonical order and so give the same answer however
- * the rows came together. A group without a usable row has no state.
+ * The transition function measures a row and adds it to the group's state; combine appends; the final functions put
+ * the buildings in canonical order and so give the same answer however the rows came together. A group without a
+ * usable row has no state.
  */
 #include "compat.h"
 
 #include "catalog/pg_type.h"
 #include "miscadmin.h"
-#include "utils/memutils.h"
+#include "utils/lsyscache.h"
 
 #include "backend.h"
 #include "call.h"
@@ -19,149 +19,10 @@
 #include "geometry.h"
 #include "hierarchy.h"
 #include "options.h"
+#include "partial.h"
 #include "progress.h"
 #include "row_array.h"
-
-/* The array's first size in bytes, good for nine buildings: there may be 100 000 groups of about that many. */
-#define FIRST_SIZE 512
-
-typedef struct state
-{
-	MemoryContext context; /* of the state and its array */
-	ty_parameters parameters;
-	uint64 generation; /* of the call's parameters when they were last found equal to these */
-	int32 srid;
-	double metres_per_unit; /* of the SRID */
-	size_t count, capacity;
-	ty_building *buildings;
-} state;
-
-/*
- * A state as it travels between the processes of one parallel query: this header, then the buildings. Both sides
- * run the same library on the same machine, so values are copied as they are.
- */
-typedef struct state_image
-{
-	uint32 magic;
-	uint32 building_size;
-	int32 srid;
-	uint32 unused;
-	uint64 count;
-	double metres_per_unit;
-	ty_parameters parameters;
-} state_image;
-
-#define STATE_MAGIC 0x54590002 /* the last byte is the version */
-
-/* --- states --- */
-
-/* Makes an empty state in the context. */
-static state *
-state_new(MemoryContext context, const ty_parameters *parameters, int32 srid, double metres_per_unit)
-{
-	state *s = MemoryContextAlloc(context, sizeof(state));
-
-	s->context = context;
-	s->parameters = *parameters;
-	s->generation = 0;
-	s->srid = srid;
-	s->metres_per_unit = metres_per_unit;
-	s->count = s->capacity = 0;
-	s->buildings = NULL;
-	return s;
-}
-
-/* Room for more buildings. Sizes are powers of two: that is what a memory context hands out anyway. */
-static void
-state_reserve(state *s, size_t more)
-{
-	size_t size = FIRST_SIZE;
-
-	if (more <= s->capacity - s->count)
-		return;
-	if (more > TY_MAX_VERTICES - s->count)
-		ty_check_status(TY_TOO_MANY);
-	while (size / sizeof(ty_building) < s->count + more)
-		size *= 2;
-	if (s->buildings == NULL)
-		s->buildings = MemoryContextAllocHuge(s->context, size);
-	else
-		s->buildings = repalloc_huge(s->buildings, size);
-	s->capacity = size / sizeof(ty_building);
-}
-
-static void
-state_append(state *s, const ty_building *buildings, size_t count)
-{
-	state_reserve(s, count);
-	memcpy(s->buildings + s->count, buildings, count * sizeof(ty_building));
-	s->count += count;
-}
-
-static void
-state_check_srid(const state *s, int32 srid)
-{
-	if (unlikely(s->srid != srid))
-		ty_refuse_two_srids(s->srid, srid);
-}
-
-/* Appends a copy of what b holds; b stays as it is. */
-static void
-state_merge(state *a, const state *b)
-{
-	state_check_srid(a, b->srid);
-	if (!ty_same_parameters(&a->parameters, &b->parameters))
-		ty_refuse_varying_parameters();
-	state_append(a, b->buildings, b->count);
-}
-
-/* In the current context; an error where a bytea cannot hold it. */
-static bytea *
-state_serialize(const state *s)
-{
-	size_t size = VARHDRSZ + sizeof(state_image) + s->count * sizeof(ty_building);
-	state_image image;
-	bytea *value;
-
-	if (!AllocSizeIsValid(size))
-		ereport(ERROR, errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
-				errmsg("a group of %zu buildings is too large to pass between parallel processes", s->count),
-				errhint("SET max_parallel_workers_per_gather = 0"));
-	memset(&image, 0, sizeof(image));
-	image.magic = STATE_MAGIC;
-	image.building_size = sizeof(ty_building);
-	image.srid = s->srid;
-	image.count = s->count;
-	image.metres_per_unit = s->metres_per_unit;
-	image.parameters = s->parameters;
-	value = palloc(size);
-	SET_VARSIZE(value, size);
-	memcpy(VARDATA(value), &image, sizeof(image));
-	memcpy(VARDATA(value) + sizeof(image), s->buildings, s->count * sizeof(ty_building));
-	return value;
-}
-
-/* Makes the state in the current context; nothing of the value is kept. */
-static state *
-state_deserialize(bytea *value)
-{
-	size_t size = VARSIZE_ANY_EXHDR(value);
-	state_image image;
-	state *s;
-
-	if (size < sizeof(image))
-		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION), errmsg("a typify state is truncated"));
-	memcpy(&image, VARDATA_ANY(value), sizeof(image));
-	if (image.magic != STATE_MAGIC || image.building_size != sizeof(ty_building) || image.count == 0 ||
-		image.count > TY_MAX_VERTICES || size - sizeof(image) != image.count * sizeof(ty_building))
-		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION),
-				errmsg("a typify state is from another version, or broken"));
-	s = state_new(CurrentMemoryContext, &image.parameters, image.srid, image.metres_per_unit);
-	state_reserve(s, image.count);
-	memcpy(s->buildings, VARDATA_ANY(value) + sizeof(image), image.count * sizeof(ty_building));
-	s->count = image.count;
-	return s;
-}
+#include "state.h"
 
 /* --- rows --- */
 
@@ -169,14 +30,16 @@ state_deserialize(bytea *value)
 typedef struct row_layout
 {
 	int id;
-	int parameters;
+	int parameters, parameter_count;
 	int importance;
 	bool without_scale; /* parameters: where the scale would be */
 } row_layout;
 
-static const row_layout geometry_layout = {.parameters = 2};
-static const row_layout placeholders_layout = {.id = 2, .parameters = 3, .importance = 6};
-static const row_layout hierarchy_layout = {.id = 2, .parameters = 2, .importance = 5, .without_scale = true};
+static const row_layout geometry_layout = {.parameters = 2, .parameter_count = 3};
+static const row_layout placeholders_layout = {.id = 2, .parameters = 3, .parameter_count = 3, .importance = 6};
+static const row_layout barred_layout = {.id = 2, .parameters = 3, .parameter_count = 4, .importance = 7};
+static const row_layout hierarchy_layout = {
+	.id = 2, .parameters = 2, .parameter_count = 3, .importance = 5, .without_scale = true};
 
 /* The context of states; the one preamble of all five functions. */
 static MemoryContext
@@ -189,36 +52,51 @@ aggregate_context(FunctionCallInfo fcinfo)
 	return context;
 }
 
-static void
-check_importance(FunctionCallInfo fcinfo, int argument)
+/* of the row; 1 where it is NULL or the aggregate takes none */
+static double
+row_importance(FunctionCallInfo fcinfo, int argument)
 {
 	double importance;
 
 	if (argument == 0 || argument >= PG_NARGS() || PG_ARGISNULL(argument))
-		return;
+		return 1;
 	importance = PG_GETARG_FLOAT8(argument);
 	if (!(importance >= 1))
 		ty_refuse_value("importance", importance, "at least 1");
-	if (importance != 1)
-		ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED), errmsg("importance other than 1 is not supported yet"),
-				errhint("Leave it out, or set it to NULL."));
+	return importance;
 }
 
 /* The state of the row's group, with the row's parameters and SRID checked against it. */
-static state *
+static ty_state *
 state_for_row(FunctionCallInfo fcinfo, MemoryContext context, const row_layout *layout, int32 srid)
 {
-	state *s = PG_ARGISNULL(0) ? NULL : (state *) PG_GETARG_POINTER(0);
-	ty_call *call = ty_call_of(fcinfo, layout->parameters, 1, !layout->without_scale);
-	const ty_parameters *parameters = ty_call_parameters(call, &fcinfo->args[layout->parameters], s == NULL);
+	ty_state *s = PG_ARGISNULL(0) ? NULL : (ty_state *) PG_GETARG_POINTER(0);
+	ty_call *call = ty_call_of(fcinfo, layout->parameters, layout->parameter_count, 1, !layout->without_scale);
+	const ty_parameters *parameters;
 
+	call->group_context = context;
+	parameters = ty_call_parameters(call, &fcinfo->args[layout->parameters], s == NULL);
 	if (s == NULL)
-		s = state_new(context, parameters, srid, ty_check_srid(&call->srids, srid));
+	{
+		s = ty_state_new(context, parameters, srid, ty_check_srid(&call->srids, srid), call->srids.geometry_type);
+		s->barriers = call->barriers.current;
+		ty_check_barrier_srid(s->barriers, srid);
+	}
 	else if (unlikely(s->generation != call->generation) && !ty_same_parameters(&s->parameters, parameters))
 		ty_refuse_varying_parameters();
 	s->generation = call->generation;
-	state_check_srid(s, srid);
+	ty_state_check_srid(s, srid);
 	return s;
+}
+
+/* The last building's outline, with which its placeholder may be drawn. */
+static void
+add_outline(ty_state *s, Datum geometry)
+{
+	MemoryContext old = MemoryContextSwitchTo(s->context);
+
+	ty_state_give_outline(s, ty_outline_datum(geometry));
+	MemoryContextSwitchTo(old);
 }
 
 /* Adds the row's building; a row without geometry is passed over, and nothing else of it looked at. */
@@ -227,8 +105,9 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 {
 	MemoryContext context = aggregate_context(fcinfo);
 	ty_building building;
+	double importance;
 	int32 srid;
-	state *s;
+	ty_state *s;
 
 	if (PG_ARGISNULL(1) || !ty_measure_datum(PG_GETARG_DATUM(1), &building, &srid, NULL))
 	{
@@ -240,10 +119,12 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 	if (layout->id != 0 && PG_ARGISNULL(layout->id))
 		ty_refuse_null("id");
 	building.id = layout->id != 0 ? PG_GETARG_INT64(layout->id) : 0;
-	check_importance(fcinfo, layout->importance);
-	if (unlikely(s->count == s->capacity))
-		state_reserve(s, 1);
-	s->buildings[s->count++] = building;
+	importance = row_importance(fcinfo, layout->importance);
+	ty_state_add(s, &building);
+	if (unlikely(importance != 1))
+		ty_state_set_importance(s, importance);
+	if (unlikely(ty_wants_outline(&s->parameters)))
+		add_outline(s, PG_GETARG_DATUM(1));
 	PG_RETURN_POINTER(s);
 }
 
@@ -252,14 +133,27 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 /* From this many buildings on, what their mesh took is given back before the result's value is made. */
 #define LARGE_GROUP 100000
 
+static ty_input
+input_of(const ty_state *s)
+{
+	return (ty_input){.buildings = s->buildings,
+					  .n = s->count,
+					  .importance = s->importance,
+					  .outlines = s->outlines,
+					  .barriers = ty_lines_of_barriers(s->barriers)};
+}
+
 /* Typifies the group; the result is of the current context. The state stays as it is. */
 static void
-state_typify(const state *s, ty_result *result)
+state_typify(const ty_state *s, ty_result *result)
 {
+	ty_input input = input_of(s);
 	ty_parameters parameters = s->parameters;
 
 	ty_bring_to_ground(&parameters, s->metres_per_unit);
-	ty_typify_group(s->buildings, s->count, &parameters, result);
+	ty_typify_group(&input, &parameters, result);
+	if (s->outlines != NULL)
+		ty_check_outlines(result, s->outlines, s->geometry_type);
 	if (s->count >= LARGE_GROUP)
 		ty_trim_memory();
 	if (result->undrawn > 0)
@@ -286,7 +180,7 @@ id_of_sortable(uint64 number)
 
 /* Ids must differ. What it takes to see that is given back before the group is typified. */
 static void
-check_ids(const state *s)
+check_ids(const ty_state *s)
 {
 	uint64 *ids = ty_allocate_array(&ty_backend_environment, s->count, sizeof(uint64));
 	uint32 *unused = ty_allocate_array(&ty_backend_environment, s->count, sizeof(uint32));
@@ -314,29 +208,37 @@ check_ids(const state *s)
 typedef struct row_writer
 {
 	ty_row_array rows;
-	const state *group;
+	const ty_state *group;
 	const ty_result *result;
 	void *polygon;		/* TY_POLYGON_DATUM_SIZE bytes, used for every row */
 	ArrayType *members; /* room for the largest placeholder's */
 	uint32 *unused;		/* as long, zero: what their sort moves along */
 } row_writer;
 
+/* of the polygon's value */
 static size_t
-rows_size(const ty_result *result)
+polygon_size(const ty_state *s, const ty_placeholder *placeholder)
+{
+	return placeholder->outlined ? ty_outline_polygon_size(s->outlines[placeholder->representative])
+								 : TY_POLYGON_DATUM_SIZE;
+}
+
+static size_t
+rows_size(const ty_state *s, const ty_result *result)
 {
 	size_t size = 0;
 
 	for (size_t k = 0; k < result->count; k++)
-		size += ROW_SIZE + TY_POLYGON_DATUM_SIZE + MEMBERS_SIZE(result->placeholders[k].count);
+		size += ROW_SIZE + polygon_size(s, &result->placeholders[k]) + MEMBERS_SIZE(result->placeholders[k].count);
 	return size;
 }
 
 static void
-writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const state *s, const ty_result *result)
+writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result)
 {
 	uint32 most = 0;
 
-	ty_row_array_begin(&writer->rows, fcinfo, TY_PLACEHOLDER_FIELDS, "typify_placeholder", rows_size(result),
+	ty_row_array_begin(&writer->rows, fcinfo, TY_PLACEHOLDER_FIELDS, "typify_placeholder", rows_size(s, result),
 					   result->count);
 	for (size_t k = 0; k < result->count; k++)
 		most = Max(most, result->placeholders[k].count);
@@ -364,16 +266,31 @@ writer_members(row_writer *writer, const ty_placeholder *placeholder)
 	return PointerGetDatum(writer->members);
 }
 
+/* An outline is new, a rectangle is overwritten by the next one. */
+static Datum
+writer_polygon(row_writer *writer, const ty_placeholder *placeholder)
+{
+	const ty_state *s = writer->group;
+
+	if (placeholder->outlined)
+		return PointerGetDatum(ty_outline_polygon(placeholder, s->outlines[placeholder->representative], s->srid));
+	return ty_write_rectangle(writer->polygon, placeholder, s->srid);
+}
+
 static void
 writer_add(row_writer *writer, const ty_placeholder *placeholder)
 {
-	const state *s = writer->group;
+	const ty_state *s = writer->group;
+	Datum *values = writer->rows.values;
+	Datum polygon = placeholder->area > 0 ? writer_polygon(writer, placeholder) : (Datum) 0;
 
-	ty_placeholder_values(placeholder, s->buildings[placeholder->representative].id, s->srid, writer->polygon,
-						  writer->rows.values, writer->rows.nulls);
-	writer->rows.values[TY_PLACEHOLDER_MEMBERS] = writer_members(writer, placeholder);
+	ty_placeholder_values(placeholder, s->buildings[placeholder->representative].id, polygon, values,
+						  writer->rows.nulls);
+	values[TY_PLACEHOLDER_MEMBERS] = writer_members(writer, placeholder);
 	writer->rows.nulls[TY_PLACEHOLDER_MEMBERS] = false;
 	ty_row_array_add(&writer->rows);
+	if (polygon != (Datum) 0 && placeholder->outlined)
+		pfree(DatumGetPointer(polygon));
 }
 
 static Datum
@@ -386,7 +303,7 @@ writer_end(row_writer *writer)
 }
 
 static Datum
-placeholder_array(FunctionCallInfo fcinfo, const state *s, const ty_result *result)
+placeholder_array(FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result)
 {
 	row_writer writer;
 
@@ -415,6 +332,13 @@ typify_placeholders_transition(PG_FUNCTION_ARGS)
 	return add_row(fcinfo, &placeholders_layout);
 }
 
+PG_FUNCTION_INFO_V1(typify_barred_transition);
+Datum
+typify_barred_transition(PG_FUNCTION_ARGS)
+{
+	return add_row(fcinfo, &barred_layout);
+}
+
 PG_FUNCTION_INFO_V1(typify_hierarchy_transition);
 Datum
 typify_hierarchy_transition(PG_FUNCTION_ARGS)
@@ -422,20 +346,74 @@ typify_hierarchy_transition(PG_FUNCTION_ARGS)
 	return add_row(fcinfo, &hierarchy_layout);
 }
 
+/* what is looked for among the arguments of the workers' aggregate */
+typedef struct barrier_search
+{
+	ty_barrier_cache *cache;
+	MemoryContext context, long_context; /* of the group and of the query */
+	ty_barrier_hash hash;
+	ty_barrier_set *found;
+} barrier_search;
+
+/* Barriers come in the options, or as a geometry that is not the first argument. */
+static bool
+look_for_barriers(void *context, int argument, Datum value, Oid type, bool per_query)
+{
+	barrier_search *search = context;
+	bool options = type_is_rowtype(type);
+
+	if (argument == 0 || (!options && get_typlen(type) != -1))
+		return false;
+	if (options)
+		value = ty_barriers_of_options(value);
+	if (value == (Datum) 0 || !ty_same_barriers(ty_check_barriers(value), search->hash))
+		return false;
+	search->found = ty_keep_barriers_datum(search->cache, per_query ? search->long_context : search->context,
+										   search->hash, value, per_query);
+	return true;
+}
+
+/* Gives a the barriers that b has or, where a worker sent their hash alone, that the plan has. */
+static void
+adopt_barriers(FunctionCallInfo fcinfo, MemoryContext context, ty_state *a, const ty_state *b)
+{
+	FmgrInfo *function = fcinfo->flinfo;
+	barrier_search search = {.context = context, .long_context = function->fn_mcxt, .hash = b->parameters.barriers};
+
+	if (a->barriers != NULL || ty_no_barriers(search.hash))
+		return;
+	if (function->fn_extra == NULL)
+		function->fn_extra = MemoryContextAllocZero(function->fn_mcxt, sizeof(ty_barrier_cache));
+	search.cache = function->fn_extra;
+	a->barriers = ty_find_barriers(search.cache, context, search.hash);
+	if (a->barriers == NULL && b->barriers != NULL)
+		a->barriers =
+			ty_keep_barriers(search.cache, context, search.hash, b->barriers->payload, b->barriers->size, false);
+	if (a->barriers == NULL && ty_visit_partial_arguments(fcinfo, look_for_barriers, &search))
+		a->barriers = search.found;
+	if (a->barriers == NULL)
+		ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				errmsg("the barriers of a parallel query are not in its plan"),
+				errhint("SET max_parallel_workers_per_gather = 0"));
+}
+
 PG_FUNCTION_INFO_V1(typify_combine);
 Datum
 typify_combine(PG_FUNCTION_ARGS)
 {
 	MemoryContext context = aggregate_context(fcinfo);
-	state *a = PG_ARGISNULL(0) ? NULL : (state *) PG_GETARG_POINTER(0);
-	const state *b = PG_ARGISNULL(1) ? NULL : (const state *) PG_GETARG_POINTER(1);
+	ty_state *a = PG_ARGISNULL(0) ? NULL : (ty_state *) PG_GETARG_POINTER(0);
+	const ty_state *b = PG_ARGISNULL(1) ? NULL : (const ty_state *) PG_GETARG_POINTER(1);
 
 	if (a == NULL && b == NULL)
 		PG_RETURN_NULL();
 	if (a == NULL)
-		a = state_new(context, &b->parameters, b->srid, b->metres_per_unit);
+		a = ty_state_new(context, &b->parameters, b->srid, b->metres_per_unit, b->geometry_type);
 	if (b != NULL)
-		state_merge(a, b);
+	{
+		adopt_barriers(fcinfo, context, a, b);
+		ty_state_merge(a, b);
+	}
 	PG_RETURN_POINTER(a);
 }
 
@@ -444,7 +422,7 @@ Datum
 typify_serialize(PG_FUNCTION_ARGS)
 {
 	aggregate_context(fcinfo);
-	PG_RETURN_BYTEA_P(state_serialize((const state *) PG_GETARG_POINTER(0)));
+	PG_RETURN_BYTEA_P(ty_state_serialize((const ty_state *) PG_GETARG_POINTER(0)));
 }
 
 PG_FUNCTION_INFO_V1(typify_deserialize);
@@ -452,14 +430,14 @@ Datum
 typify_deserialize(PG_FUNCTION_ARGS)
 {
 	aggregate_context(fcinfo);
-	PG_RETURN_POINTER(state_deserialize(PG_GETARG_BYTEA_PP(0)));
+	PG_RETURN_POINTER(ty_state_deserialize(PG_GETARG_BYTEA_PP(0)));
 }
 
 PG_FUNCTION_INFO_V1(typify_final);
 Datum
 typify_final(PG_FUNCTION_ARGS)
 {
-	const state *s = PG_ARGISNULL(0) ? NULL : (const state *) PG_GETARG_POINTER(0);
+	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
 	ty_result result;
 	Datum collection;
 
@@ -467,7 +445,7 @@ typify_final(PG_FUNCTION_ARGS)
 	if (s == NULL)
 		PG_RETURN_NULL();
 	state_typify(s, &result);
-	collection = ty_collection_datum(&result, s->srid);
+	collection = ty_collection_datum(&result, s->outlines, s->srid);
 	ty_result_free(&ty_backend_environment, &result);
 	PG_RETURN_DATUM(collection);
 }
@@ -476,7 +454,7 @@ PG_FUNCTION_INFO_V1(typify_placeholders_final);
 Datum
 typify_placeholders_final(PG_FUNCTION_ARGS)
 {
-	const state *s = PG_ARGISNULL(0) ? NULL : (const state *) PG_GETARG_POINTER(0);
+	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
 	ty_result result;
 	Datum array;
 
@@ -494,11 +472,13 @@ PG_FUNCTION_INFO_V1(typify_hierarchy_final);
 Datum
 typify_hierarchy_final(PG_FUNCTION_ARGS)
 {
-	const state *s = PG_ARGISNULL(0) ? NULL : (const state *) PG_GETARG_POINTER(0);
+	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
+	ty_input input;
 
 	aggregate_context(fcinfo);
 	if (s == NULL)
 		PG_RETURN_NULL();
 	check_ids(s);
-	PG_RETURN_DATUM(ty_node_array(fcinfo, s->buildings, s->count, &s->parameters));
+	input = input_of(s);
+	PG_RETURN_DATUM(ty_node_array(fcinfo, &input, &s->parameters));
 }

@@ -37,6 +37,7 @@ enum
 {
 	NODE_NODE = 0,
 	NODE_PARENT,
+	NODE_KEPT,
 	NODE_REPRESENTATIVE,
 	NODE_MEMBER_COUNT,
 	NODE_FIRST_LEAF,
@@ -53,7 +54,7 @@ enum
 };
 
 /* exactly, but for what the null bitmap of a root takes */
-#define NODE_SIZE (MAXALIGN(SizeofHeapTupleHeader + 2) + 4 * sizeof(int32) + sizeof(int64) + 9 * sizeof(float8))
+#define NODE_SIZE (MAXALIGN(SizeofHeapTupleHeader + 2) + 6 * sizeof(int32) + sizeof(int64) + 9 * sizeof(float8))
 
 #define FETCHED_AHEAD 16
 
@@ -66,6 +67,7 @@ add_node(ty_row_array *rows, const ty_hierarchy *h, size_t number)
 	values[NODE_NODE] = Int32GetDatum((int32) number);
 	rows->nulls[NODE_PARENT] = node.parent == TY_NONE;
 	values[NODE_PARENT] = Int32GetDatum((int32) node.parent);
+	values[NODE_KEPT] = BoolGetDatum(node.kept);
 	values[NODE_REPRESENTATIVE] = Int64GetDatum(h->buildings[node.representative].id);
 	values[NODE_MEMBER_COUNT] = Int32GetDatum((int32) node.member_count);
 	values[NODE_FIRST_LEAF] = Int32GetDatum((int32) node.first_leaf);
@@ -82,13 +84,14 @@ add_node(ty_row_array *rows, const ty_hierarchy *h, size_t number)
 }
 
 Datum
-ty_node_array(FunctionCallInfo fcinfo, const ty_building *buildings, size_t n, const ty_parameters *p)
+ty_node_array(FunctionCallInfo fcinfo, const ty_input *input, const ty_parameters *p)
 {
+	size_t n = input->n;
 	ty_row_array rows;
 	ty_hierarchy h;
 
 	ty_row_array_begin(&rows, fcinfo, NODE_FIELDS, "typify_node", 2 * n * NODE_SIZE, 2 * n - 1);
-	ty_build_hierarchy(buildings, n, p, &h);
+	ty_build_hierarchy(input, p, &h);
 	ARR_DIMS(rows.array)[0] = (int) ty_hierarchy_nodes(&h);
 	for (size_t place = 0; place < ty_hierarchy_nodes(&h); place++)
 	{
@@ -298,7 +301,8 @@ typify_search(PG_FUNCTION_ARGS)
 /* Arguments of typify_node_placeholder that say how to draw. */
 enum
 {
-	DRAW_SCALE = 8,
+	DRAW_KEPT = 8,
+	DRAW_SCALE,
 	DRAW_OPTIONS,
 	DRAW_PSI,
 	DRAW_SRID,
@@ -384,14 +388,16 @@ set_psi(drawing *d, double psi)
 	d->area_factor = ty_area_factor(&d->parameters);
 }
 
+/* A kept node is drawn as if it stood for its building alone. */
 static ty_placeholder
 placeholder_of(const drawing *d, const NullableDatum *args)
 {
 	double statistic = DatumGetFloat8(args[3].value);
 	double ratio = d->parameters.shape == TY_SQUARE ? 1 : DatumGetFloat8(args[4].value);
+	bool kept = DatumGetBool(args[DRAW_KEPT].value);
 	int32 members = DatumGetInt32(args[7].value);
-	double area = ty_scaled_area(&d->parameters, d->area_factor, statistic);
-	ty_size size = ty_drawn_size(&d->parameters, statistic, area, ratio, Max(members, 1));
+	double area = kept ? statistic : ty_scaled_area(&d->parameters, d->area_factor, statistic);
+	ty_size size = ty_drawn_size(&d->parameters, statistic, area, ratio, kept ? 1 : Max(members, 1));
 
 	return (ty_placeholder){.x = DatumGetFloat8(args[1].value),
 							.y = DatumGetFloat8(args[2].value),
@@ -410,7 +416,7 @@ typify_node_placeholder(PG_FUNCTION_ARGS)
 {
 	drawing *d = drawing_of(fcinfo);
 	ty_placeholder p;
-	Datum *values;
+	Datum polygon, *values;
 	bool *nulls;
 
 	for (int i = 0; i < PG_NARGS(); i++)
@@ -423,7 +429,8 @@ typify_node_placeholder(PG_FUNCTION_ARGS)
 	values = palloc0(d->shape->natts * sizeof(Datum));
 	nulls = palloc(d->shape->natts * sizeof(bool));
 	memset(nulls, true, d->shape->natts * sizeof(bool));
-	ty_placeholder_values(&p, PG_GETARG_INT64(0), PG_GETARG_INT32(DRAW_SRID), palloc(TY_POLYGON_DATUM_SIZE), values,
-						  nulls);
+	polygon =
+		p.area > 0 ? ty_write_rectangle(palloc(TY_POLYGON_DATUM_SIZE), &p, PG_GETARG_INT32(DRAW_SRID)) : (Datum) 0;
+	ty_placeholder_values(&p, PG_GETARG_INT64(0), polygon, values, nulls);
 	PG_RETURN_DATUM(HeapTupleGetDatum(heap_form_tuple(d->shape, values, nulls)));
 }

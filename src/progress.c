@@ -71,19 +71,19 @@ watched_environment(report *r, size_t n)
 }
 
 void
-ty_typify_group(const ty_building *buildings, size_t n, const ty_parameters *p, ty_result *result)
+ty_typify_group(const ty_input *input, const ty_parameters *p, ty_result *result)
 {
 	report r;
-	ty_environment env = watched_environment(&r, n);
+	ty_environment env = watched_environment(&r, input->n);
 
-	ty_check_status(ty_typify(&env, buildings, n, p, result));
+	ty_check_status(ty_typify(&env, input, p, result));
 }
 
 void
-ty_build_hierarchy(const ty_building *buildings, size_t n, const ty_parameters *p, ty_hierarchy *h)
+ty_build_hierarchy(const ty_input *input, const ty_parameters *p, ty_hierarchy *h)
 {
 	report r;
-	ty_environment env = watched_environment(&r, n);
+	ty_environment env = watched_environment(&r, input->n);
 
-	ty_check_status(ty_hierarchy_build(&env, buildings, n, p, h));
+	ty_check_status(ty_hierarchy_build(&env, input, p, h));
 }

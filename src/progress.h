@@ -14,8 +14,8 @@ extern void ty_define_progress(void);
  * ty_typify in the backend's environment; the result is of the current context, a status is raised as its error.
  * With typify.progress on, a group that takes over a second raises a NOTICE about every tenth of its work.
  */
-extern void ty_typify_group(const ty_building *buildings, size_t n, const ty_parameters *p, ty_result *result);
+extern void ty_typify_group(const ty_input *input, const ty_parameters *p, ty_result *result);
 /* The same for ty_hierarchy_build. */
-extern void ty_build_hierarchy(const ty_building *buildings, size_t n, const ty_parameters *p, ty_hierarchy *h);
+extern void ty_build_hierarchy(const ty_input *input, const ty_parameters *p, ty_hierarchy *h);
 
 #endif

@@ -64,16 +64,13 @@ ty_row_array_end(ty_row_array *rows)
 }
 
 void
-ty_placeholder_values(const ty_placeholder *placeholder, int64 id, int32 srid, void *polygon, Datum *values,
-					  bool *nulls)
+ty_placeholder_values(const ty_placeholder *placeholder, int64 id, Datum polygon, Datum *values, bool *nulls)
 {
-	bool drawn = placeholder->area > 0;
-
 	memset(nulls, false, TY_PLACEHOLDER_FIELDS * sizeof(bool));
 	nulls[TY_PLACEHOLDER_MEMBERS] = true;
-	nulls[TY_PLACEHOLDER_GEOM] = !drawn;
+	nulls[TY_PLACEHOLDER_GEOM] = polygon == (Datum) 0;
 	values[TY_PLACEHOLDER_ID] = Int64GetDatum(id);
-	values[TY_PLACEHOLDER_GEOM] = drawn ? ty_write_rectangle(polygon, placeholder, srid) : (Datum) 0;
+	values[TY_PLACEHOLDER_GEOM] = polygon;
 	values[TY_PLACEHOLDER_MEMBER_COUNT] = Int32GetDatum((int32) placeholder->count);
 	values[TY_PLACEHOLDER_AREA] = Float8GetDatum(placeholder->area);
 	values[TY_PLACEHOLDER_WIDTH] = Float8GetDatum(placeholder->width);

@@ -49,8 +49,8 @@ enum
 	TY_PLACEHOLDER_FIELDS
 };
 
-/* Sets all but the members. polygon: TY_POLYGON_DATUM_SIZE bytes. */
-extern void ty_placeholder_values(const ty_placeholder *placeholder, int64 id, int32 srid, void *polygon, Datum *values,
+/* Sets all but the members, which are NULL. polygon: 0 where there is none. */
+extern void ty_placeholder_values(const ty_placeholder *placeholder, int64 id, Datum polygon, Datum *values,
 								  bool *nulls);
 
 /* The header of an array of one dimension without nulls. */

@@ -46,4 +46,26 @@ ty_area_of_units(ty_area_scale scale, __int128 units)
 	return (double) units * scale.from_units;
 }
 
+/*
+ * With importances: weights sum up to less than 2^62 (influence.h), so areas are taken as whole multiples of 2^-64 of
+ * the power of two, for their product to fit.
+ */
+#define TY_WEIGHTED_AREA_BITS 64
+
+static inline __int128
+ty_weighted_area_units(ty_area_scale scale, double area, int64_t weight)
+{
+	const double coarser = ldexp(1, TY_WEIGHTED_AREA_BITS - TY_AREA_BITS);
+
+	return weight * (__int128) (area * scale.to_units * coarser);
+}
+
+static inline double
+ty_weighted_mean_area(ty_area_scale scale, __int128 units, int64_t weights)
+{
+	const double coarser = ldexp(1, TY_WEIGHTED_AREA_BITS - TY_AREA_BITS);
+
+	return (double) units / (double) weights * (scale.from_units / coarser);
+}
+
 #endif

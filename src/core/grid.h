@@ -48,10 +48,6 @@ uint64_t ty_hilbert_key(ty_position p);
 ty_status ty_canonical_order(const ty_environment *env, const ty_building *buildings, size_t n, const ty_grid *grid,
 							 uint32_t *order, ty_position *position, uint64_t *keys);
 
-/* The same into arrays from env, the caller's to release, also when it fails. They must be NULL before. */
-ty_status ty_order_buildings(const ty_environment *env, const ty_building *buildings, size_t n, const ty_grid *grid,
-							 uint32_t **order, ty_position **position);
-
 /* Sorts n (key, value) pairs by key, stably (least significant digit first; a plain sort for small n). */
 ty_status ty_sort_keys(const ty_environment *env, uint64_t *keys, uint32_t *values, size_t n);
 

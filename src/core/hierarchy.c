@@ -1,12 +1,12 @@
 /*
  * hierarchy.c - see hierarchy.h
  *
- * The merge sequence is replayed three times: forwards for what a node is made of, backwards for the numbers of the
- * leaves below it, and once more for its life span. While it is being made a leaf goes by its rank.
+ * The merge sequence is replayed: forwards for what a node is made of, backwards for the numbers of the leaves below it,
+ * and once more for its life span. While it is being made a leaf goes by its rank.
  */
 #include "hierarchy.h"
 
-#include "collapse.h"
+#include "group_internal.h"
 #include "quantile.h"
 
 #include <math.h>
@@ -15,9 +15,9 @@
 /* what a vertex stands for at some step, kept at its rank: as much as a line of the cache */
 typedef struct cluster
 {
-	__int128 area;	/* sum, in units of the area scale */
-	int64_t x, y;	/* sums of grid positions */
-	double largest; /* area of the representative */
+	__int128 area;				/* sum, in units of the area scale; weighted where there are weights */
+	int64_t weight;				/* sum, where there are weights */
+	double importance, largest; /* importance, 1 without weights, and area of the representative */
 	uint32_t count;
 	uint32_t representative; /* rank */
 	uint32_t node;
@@ -36,8 +36,9 @@ typedef struct replay
 	const ty_environment *env;
 	const ty_parameters *parameters;
 	ty_hierarchy *h;
+	group group;
+	bool weighted; /* means are weighted */
 	ty_sequence sequence;
-	ty_area_scale scale;
 	cluster *clusters;	/* [n] */
 	children *children; /* [merges] */
 } replay;
@@ -64,48 +65,66 @@ building_of_rank(const ty_hierarchy *h, uint32_t rank)
 	return &h->buildings[h->order[rank]];
 }
 
+static bool
+is_kept(const ty_hierarchy *h, uint32_t rank)
+{
+	return h->importance != NULL && h->importance[h->order[rank]] == INFINITY;
+}
+
 /* ---- forwards: what a node is made of ---- */
 
+static cluster
+single_building(const replay *r, uint32_t rank)
+{
+	const group *g = &r->group;
+	double area = building_of_rank(r->h, rank)->area;
+	cluster c = {.importance = 1, .largest = area, .count = 1, .representative = rank, .node = rank};
+
+	if (g->weight != NULL)
+		c.importance = g->weight[rank];
+	if (r->weighted)
+		c.weight = ty_weight(c.importance, g->weight_exponent);
+	c.area = r->weighted ? ty_weighted_area_units(g->scale, area, c.weight) : ty_area_units(g->scale, area);
+	return c;
+}
+
 static void
-begin_clusters(replay *r, const ty_position *position)
+begin_clusters(replay *r)
 {
 	for (uint32_t rank = 0; rank < r->h->n; rank++)
 	{
-		double area = building_of_rank(r->h, rank)->area;
-
-		r->clusters[rank] = (cluster){.area = ty_area_units(r->scale, area),
-									  .x = position[rank].x,
-									  .y = position[rank].y,
-									  .largest = area,
-									  .count = 1,
-									  .representative = rank,
-									  .node = rank};
+		r->clusters[rank] = single_building(r, rank);
 		r->h->parent[rank] = TY_NONE;
 	}
 }
 
-/* The representative is the one with the larger area, of equal ones that with the smaller rank. */
+/* The representative has the higher importance, then the larger area, then the smaller rank. */
 static void
 take_representative(cluster *c, const cluster *other)
 {
-	if (other->largest < c->largest || (other->largest == c->largest && c->representative < other->representative))
+	bool stays = c->representative < other->representative;
+
+	if (c->importance != other->importance)
+		stays = c->importance > other->importance;
+	else if (c->largest != other->largest)
+		stays = c->largest > other->largest;
+	if (stays)
 		return;
+	c->importance = other->importance;
 	c->largest = other->largest;
 	c->representative = other->representative;
 }
 
-/* sum / count, rounded half up to the grid */
-static int32_t
-mean_position(int64_t sum, uint32_t count)
-{
-	return (int32_t) ((2 * sum + count) / (2 * (int64_t) count));
-}
-
-/* sum or mean; the median is found later */
+/* sum or mean; the median is found later. A kept representative's own. */
 static double
 area_of(const replay *r, const cluster *c)
 {
-	return ty_area_of_units(r->scale, c->area) / (r->parameters->area_statistic == TY_SUM ? 1 : (double) c->count);
+	if (c->importance == INFINITY)
+		return c->largest;
+	if (r->weighted)
+		return ty_weighted_mean_area(r->group.scale, c->area, c->weight);
+	return ty_area_of_units(r->group.scale, c->area) /
+		   (r->parameters->area_statistic == TY_SUM ? 1 : (double) c->count);
 }
 
 static void
@@ -120,14 +139,13 @@ join(replay *r, size_t step)
 	h->parent[kept->node] = h->parent[gone->node] = node;
 	h->parent[node] = TY_NONE;
 	kept->area += gone->area;
-	kept->x += gone->x;
-	kept->y += gone->y;
+	kept->weight += gone->weight;
 	kept->count += gone->count;
 	take_representative(kept, gone);
 	kept->node = node;
 	h->count[step] = kept->count;
 	h->representative[step] = kept->representative;
-	h->position[step] = (ty_position){mean_position(kept->x, kept->count), mean_position(kept->y, kept->count)};
+	h->position[step] = r->sequence.place[step];
 	h->area[step] = area_of(r, kept);
 }
 
@@ -236,8 +254,11 @@ find_medians(replay *r)
 	for (size_t step = 0; status == TY_OK && step < h->merges; step++)
 	{
 		uint32_t first = h->first[h->n + step], count = h->count[step];
-		double upper = area_at(areas, &q, first, count, count / 2);
+		double upper;
 
+		if (is_kept(h, h->representative[step]))
+			continue;
+		upper = area_at(areas, &q, first, count, count / 2);
 		h->area[step] = count % 2 == 1 ? upper : 0.5 * area_at(areas, &q, first, count, count / 2 - 1) + 0.5 * upper;
 		if (ty_interrupted_at(r->env, step))
 			status = TY_INTERRUPTED;
@@ -297,7 +318,7 @@ find_storage_order(replay *r)
 /* ---- the whole group ---- */
 
 static ty_status
-replay_sequence(replay *r, const ty_position *position)
+replay_sequence(replay *r)
 {
 	ty_status status = TY_NO_MEMORY;
 
@@ -306,7 +327,7 @@ replay_sequence(replay *r, const ty_position *position)
 	r->children = ty_allocate_array(r->env, r->h->merges, sizeof *r->children);
 	if (allocate(r->env, r->h) && r->clusters != NULL && r->children != NULL)
 	{
-		begin_clusters(r, position);
+		begin_clusters(r);
 		status = join_all(r);
 	}
 	if (status == TY_OK)
@@ -320,44 +341,35 @@ replay_sequence(replay *r, const ty_position *position)
 	return status == TY_OK ? find_storage_order(r) : status;
 }
 
-/* Collapses a copy of the positions, which end as something else. */
-static ty_status
-collapse_whole(replay *r, const ty_position *position)
+/* The canonical order goes from the group to the hierarchy. */
+static void
+take_order(replay *r)
 {
-	ty_position *copy = ty_allocate_array(r->env, r->h->n, sizeof *copy);
-	ty_stop stop = {.count = 1};
-	ty_status status;
-
-	if (copy == NULL)
-		return TY_NO_MEMORY;
-	memcpy(copy, position, r->h->n * sizeof *copy);
-	status = ty_collapse(r->env, copy, r->h->n, r->parameters->s_u, stop, true, NULL, NULL, &r->sequence);
-	ty_release(r->env, copy);
-	return status;
+	r->h->grid = r->group.grid;
+	r->h->order = r->group.order;
+	r->group.order = NULL;
 }
 
 ty_status
-ty_hierarchy_build(const ty_environment *env, const ty_building *buildings, size_t n, const ty_parameters *p,
-				   ty_hierarchy *h)
+ty_hierarchy_build(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_hierarchy *h)
 {
 	replay r = {.env = env, .parameters = p, .h = h};
-	ty_position *position = NULL;
+	ty_stop stop = {.count = 1};
 	ty_status status;
 
-	*h = (ty_hierarchy){.n = n, .buildings = buildings, .source_scale = p->source_scale};
-	if (n > TY_MAX_VERTICES)
+	*h = (ty_hierarchy){
+		.n = input->n, .buildings = input->buildings, .importance = input->importance, .source_scale = p->source_scale};
+	if (input->n > TY_MAX_VERTICES)
 		return TY_TOO_MANY;
-	status = ty_grid_fit(buildings, n, &h->grid);
-	if (status != TY_OK)
-		return status;
-	r.scale = ty_fit_area_scale(buildings, n);
-	status = ty_order_buildings(env, buildings, n, &h->grid, &h->order, &position);
+	status = ty_group_begin(env, input, p, &r.group);
+	r.weighted = r.group.weight != NULL && p->area_statistic == TY_MEAN;
 	if (status == TY_OK)
-		status = collapse_whole(&r, position);
+		status = ty_group_collapse(env, &r.group, input, stop, true, &r.sequence);
+	take_order(&r);
 	if (status == TY_OK)
-		status = replay_sequence(&r, position);
+		status = replay_sequence(&r);
 	ty_sequence_free(env, &r.sequence);
-	ty_release(env, position);
+	ty_group_free(env, &r.group);
 	if (status != TY_OK)
 		ty_hierarchy_free(env, h);
 	return status;
@@ -393,7 +405,8 @@ common_node(const ty_hierarchy *h, uint32_t slot, uint32_t representative)
 					 .ratio = b->ratio,
 					 .ux = b->ux,
 					 .uy = b->uy,
-					 .scale_to = parent == TY_NONE ? INFINITY : h->scale[parent - h->n]};
+					 .scale_to = parent == TY_NONE ? INFINITY : h->scale[parent - h->n],
+					 .kept = is_kept(h, representative)};
 }
 
 int
@@ -439,8 +452,9 @@ ty_hierarchy_node(const ty_hierarchy *h, size_t number)
 	}
 	node = common_node(h, (uint32_t) number, h->representative[step]);
 	node.member_count = h->count[step];
-	node.x = ty_grid_x(&h->grid, h->position[step].x);
-	node.y = ty_grid_y(&h->grid, h->position[step].y);
+	b = &h->buildings[node.representative];
+	node.x = node.kept ? b->x : ty_grid_x(&h->grid, h->position[step].x);
+	node.y = node.kept ? b->y : ty_grid_y(&h->grid, h->position[step].y);
 	node.area = h->area[step];
 	node.cost = h->cost[step];
 	node.scale_from = h->scale[step];

@@ -7,10 +7,9 @@
 #ifndef TY_HIERARCHY_H
 #define TY_HIERARCHY_H
 
-#include "areas.h"
 #include "grid.h"
+#include "group.h"
 #include "mesh.h"
-#include "placeholder.h"
 
 /* Everything in ground units. */
 typedef struct ty_node
@@ -19,12 +18,13 @@ typedef struct ty_node
 	uint32_t representative; /* index into the caller's buildings */
 	uint32_t member_count, first_leaf;
 	double x, y;	   /* the vertex; of a leaf its building's very centroid, off the grid */
-	double area;	   /* statistic of the members' areas, unscaled */
+	double area;	   /* statistic of the members' areas, unscaled; of a kept one its own */
 	double ratio;	   /* of the representative, whatever the shape */
 	double ux, uy;	   /* of the representative */
 	double cost;	   /* greatest cost of a merge up to that which made the node; 0 for leaves */
 	double scale_from; /* alive for scale_from <= scale < scale_to */
 	double scale_to;   /* INFINITY for roots */
+	bool kept;		   /* the representative is kept: the node stands there, and is drawn with its own area */
 } ty_node;
 
 /* Flat arrays; ty_hierarchy_node puts a node together. Merge i makes node n + i. */
@@ -32,6 +32,7 @@ typedef struct ty_hierarchy
 {
 	size_t n, merges;
 	const ty_building *buildings; /* the caller's */
+	const double *importance;	  /* the caller's, by building, or NULL */
 	double source_scale;
 	ty_grid grid;
 	uint32_t *order;		  /* [n] building by rank */
@@ -49,10 +50,9 @@ typedef struct ty_hierarchy
 
 /*
  * The whole way of one group, down to a single vertex where the influences let it. p->scale and p->psi are not looked
- * at. n >= 1. The arrays come from env; ty_hierarchy_free gives them back.
+ * at, outlines neither; p has no min_area and no keep_area. The arrays come from env; ty_hierarchy_free gives them back.
  */
-ty_status ty_hierarchy_build(const ty_environment *env, const ty_building *buildings, size_t n, const ty_parameters *p,
-							 ty_hierarchy *h);
+ty_status ty_hierarchy_build(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_hierarchy *h);
 void ty_hierarchy_free(const ty_environment *env, ty_hierarchy *h);
 
 static inline size_t
