@@ -249,9 +249,9 @@ BEGIN
 		'kept boolean NOT NULL, representative bigint NOT NULL, member_count integer NOT NULL, first_leaf integer NOT NULL, '
 		'x float8 NOT NULL, y float8 NOT NULL, area float8 NOT NULL, ratio float8 NOT NULL, ux float8 NOT NULL, '
 		'uy float8 NOT NULL, cost float8 NOT NULL, scale_from float8 NOT NULL, scale_to float8 NOT NULL, '
-		'place point NOT NULL, PRIMARY KEY (group_id, node))', nodes);
+		'place point NOT NULL)', nodes);
 	EXECUTE format('CREATE TABLE %s (group_id integer PRIMARY KEY, grp text, count bigint NOT NULL, exponent float8, '
-		'psi float8, state bigint, reach float8, extent %s, latitude float8)', groups,
+		'psi float8, built boolean NOT NULL DEFAULT false, state bigint, reach float8, extent %s, latitude float8)', groups,
 		typify_layer_geometry(typify_hierarchy_layer(definition::jsonb)));
 	EXECUTE format('COMMENT ON TABLE %s IS %L', nodes, definition);
 	EXECUTE format('COMMENT ON TABLE %s IS %L', groups, format('The groups of %s.', nodes));
@@ -259,7 +259,7 @@ BEGIN
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_create(text, text, json) IS
-'The two empty tables of a hierarchy. Of nodes: group_id and the fields of typify_node, and place, by which they are found (typify_place). Of groups: grp, the group as text; count of its buildings; exponent and psi, where they are the group''s own; state, a hash of its buildings (typify_building_hash of each, combined by bit_xor), NULL until its nodes are there; reach, the greatest of its nodes (typify_reach); extent of its vertices; latitude of the middle of that, NULL where the SRID is not known.';
+'The two empty tables of a hierarchy. Of nodes: group_id and the fields of typify_node, and place, by which they are found (typify_place). Of groups: grp, the group as text; count of its buildings; exponent and psi, where they are the group''s own; built, whether its nodes are there; state, a hash of its buildings (typify_building_hash of each, combined by bit_xor); reach, the greatest of its nodes (typify_reach); extent of its vertices; latitude of the middle of that, NULL where the SRID is not known. Both get their keys when they are filled.';
 
 -- A group counts as changed when its buildings, exponent or psi are not what its nodes were made of, and when it is
 -- named. Where nothing is calibrated, and groups are named, nothing else is looked at.
@@ -286,7 +286,7 @@ BEGIN
 		layer := layer || '{"lod200": null, "lod200_group_by": null}';
 	END IF;
 	EXECUTE format('SELECT * FROM %s', typify_layer_call(layer, 'typify_plan', '$1')) INTO plan USING wanted;
-	EXECUTE format('SELECT count(*) > 0 FROM %s WHERE state IS NOT NULL', part.groups) INTO compared;
+	EXECUTE format('SELECT count(*) > 0 FROM %s WHERE built', part.groups) INTO compared;
 	RETURN QUERY EXECUTE format(
 		'WITH level AS (
 			SELECT typify_group_key(grp) AS key, grp, n25 AS n, ordinality AS place, (options).exponent, (options).psi
@@ -301,35 +301,13 @@ BEGIN
 			CASE WHEN $4 THEN level.exponent END, CASE WHEN $4 THEN level.psi END
 		FROM level FULL JOIN known USING (key) LEFT JOIN now USING (key)
 		WHERE level.key IS NULL OR known.key IS NULL OR $4 AND (known.exponent, known.psi) IS DISTINCT FROM
-			(level.exponent, level.psi) OR key = ANY ($5) OR $3 AND known.state IS DISTINCT FROM now.state
+			(level.exponent, level.psi) OR key = ANY ($5) OR NOT known.built OR $3 AND known.state IS DISTINCT FROM now.state
 		ORDER BY known.group_id, level.place', part.groups, typify_layer_source(layer, wanted))
 	USING plan.levels, typify_group_keys(wanted), compared AND named IS NULL, calibrated, typify_group_keys(named);
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_changes(regclass, text[]) IS
 'The groups of a hierarchy whose nodes are to be made, with what they are made of now: known ones that changed, by group_id, then new ones, which have none, by the bytes of their names. count 0: the group has no buildings any more. named: these groups count as changed; NULL: every group is compared. Errors: as of typify_derive.';
-
-CREATE FUNCTION typify_hierarchy_mark(hierarchy regclass, named text[]) RETURNS void
-LANGUAGE plpgsql
-SET search_path FROM CURRENT AS
-$$
-DECLARE
-	part record := typify_hierarchy_parts(hierarchy);
-BEGIN
-	EXECUTE format(
-		'WITH change AS MATERIALIZED (SELECT * FROM typify_hierarchy_changes($1, $2)),
-		removed AS (DELETE FROM %1$s AS n USING change WHERE n.group_id = change.group_id),
-		gone AS (DELETE FROM %2$s AS g USING change WHERE g.group_id = change.group_id AND change.count = 0),
-		changed AS (
-			UPDATE %2$s AS g SET count = change.count, exponent = change.exponent, psi = change.psi, state = NULL
-			FROM change WHERE g.group_id = change.group_id AND change.count > 0)
-		INSERT INTO %2$s (group_id, grp, count, exponent, psi)
-		SELECT (SELECT coalesce(max(group_id), 0) FROM %2$s) + row_number() OVER (), grp, count, exponent, psi
-		FROM change WHERE group_id IS NULL', part.nodes, part.groups) USING hierarchy, named;
-END
-$$;
-COMMENT ON FUNCTION typify_hierarchy_mark(regclass, text[]) IS
-'Removes the nodes of the groups that typify_hierarchy_changes lists and leaves these groups, those that are new and those without buildings included, as they are to be built: state NULL, or not there.';
 
 CREATE FUNCTION typify_latitude(extent geometry) RETURNS double precision
 LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE
@@ -350,6 +328,63 @@ END
 $$;
 COMMENT ON FUNCTION typify_latitude(geometry) IS
 'The latitude in degrees of the middle of the box of a geometry; NULL where it has none, as with an unknown SRID.';
+
+CREATE FUNCTION typify_hierarchy_note(hierarchy regclass) RETURNS void
+LANGUAGE plpgsql
+SET search_path FROM CURRENT
+SET jit = off AS
+$$
+DECLARE
+	part record := typify_hierarchy_parts(hierarchy);
+	ids integer[];
+BEGIN
+	EXECUTE format('SELECT array_agg(group_id) FROM %s WHERE built AND state IS NULL', part.groups) INTO ids;
+	IF ids IS NULL THEN
+		RETURN;
+	END IF;
+	EXECUTE format(
+		'WITH made AS (
+			SELECT n.group_id, count(*) FILTER (WHERE member_count = 1) AS count,
+				bit_xor(typify_leaf_hash(representative, x, y, area, ratio, ux, uy)) FILTER (WHERE member_count = 1) AS state,
+				max(typify_reach(area, ratio, coalesce(g.psi, $2, 0.75))) AS reach,
+				min(x) AS west, min(y) AS south, max(x) AS east, max(y) AS north
+			FROM %1$s AS n JOIN %2$s AS g USING (group_id) WHERE n.group_id = ANY ($1) GROUP BY n.group_id
+		)
+		UPDATE %2$s AS g SET count = made.count, state = made.state, reach = made.reach, extent = made.extent,
+			latitude = typify_latitude(made.extent)
+		FROM (SELECT *, ST_MakeEnvelope(west, south, east, north, $3) AS extent FROM made) AS made
+		WHERE made.group_id = g.group_id', part.nodes, part.groups)
+	USING ids, (part.definition->'options'->>'psi')::float8, typify_hierarchy_srid(part.groups::regclass);
+	-- what had lost its buildings by the time it was to be built
+	EXECUTE format('DELETE FROM %s WHERE group_id = ANY ($1) AND state IS NULL', part.groups) USING ids;
+END
+$$;
+COMMENT ON FUNCTION typify_hierarchy_note(regclass) IS
+'Writes down of every group whose nodes are new what they were made of: count, state, reach, extent and latitude. A group without buildings is removed.';
+
+CREATE FUNCTION typify_hierarchy_mark(hierarchy regclass, named text[]) RETURNS void
+LANGUAGE plpgsql
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	part record := typify_hierarchy_parts(hierarchy);
+BEGIN
+	PERFORM typify_hierarchy_note(hierarchy);
+	EXECUTE format(
+		'WITH change AS MATERIALIZED (SELECT * FROM typify_hierarchy_changes($1, $2)),
+		removed AS (DELETE FROM %1$s AS n USING change WHERE n.group_id = change.group_id),
+		gone AS (DELETE FROM %2$s AS g USING change WHERE g.group_id = change.group_id AND change.count = 0),
+		changed AS (
+			UPDATE %2$s AS g SET count = change.count, exponent = change.exponent, psi = change.psi, built = false,
+				state = NULL
+			FROM change WHERE g.group_id = change.group_id AND change.count > 0)
+		INSERT INTO %2$s (group_id, grp, count, exponent, psi)
+		SELECT (SELECT coalesce(max(group_id), 0) FROM %2$s) + row_number() OVER (), grp, count, exponent, psi
+		FROM change WHERE group_id IS NULL', part.nodes, part.groups) USING hierarchy, named;
+END
+$$;
+COMMENT ON FUNCTION typify_hierarchy_mark(regclass, text[]) IS
+'Removes the nodes of the groups that typify_hierarchy_changes lists and leaves these groups, those that are new and those without buildings included, as they are to be built: not built, or not there.';
 
 CREATE FUNCTION typify_hierarchy_fill(hierarchy regclass, ids integer[]) RETURNS void
 LANGUAGE plpgsql
@@ -384,25 +419,11 @@ BEGIN
 			FROM %3$s AS b JOIN todo ON todo.key = typify_group_key(b.grp) GROUP BY todo.group_id, todo.psi
 		) AS one', part.nodes, part.groups, typify_layer_source(layer, todo))
 	USING ids, given, (part.definition->>'s_u')::float8, (layer->>'scale')::float8;
-	EXECUTE format(
-		'WITH made AS (
-			SELECT n.group_id, count(*) FILTER (WHERE member_count = 1) AS count,
-				bit_xor(typify_leaf_hash(representative, x, y, area, ratio, ux, uy)) FILTER (WHERE member_count = 1) AS state,
-				max(typify_reach(area, ratio, coalesce(g.psi, $2, 0.75))) AS reach,
-				min(x) AS west, min(y) AS south, max(x) AS east, max(y) AS north
-			FROM %1$s AS n JOIN %2$s AS g USING (group_id) WHERE n.group_id = ANY ($1) GROUP BY n.group_id
-		)
-		UPDATE %2$s AS g SET count = made.count, state = made.state, reach = made.reach,
-			extent = ST_MakeEnvelope(west, south, east, north, $3)
-		FROM made WHERE made.group_id = g.group_id', part.nodes, part.groups)
-	USING ids, given.psi, typify_hierarchy_srid(part.groups::regclass);
-	-- what lost its buildings meanwhile
-	EXECUTE format('DELETE FROM %s WHERE group_id = ANY ($1) AND state IS NULL', part.groups) USING ids;
-	EXECUTE format('UPDATE %s SET latitude = typify_latitude(extent) WHERE group_id = ANY ($1)', part.groups) USING ids;
+	EXECUTE format('UPDATE %s SET built = true WHERE group_id = ANY ($1)', part.groups) USING ids;
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_fill(regclass, integer[]) IS
-'Makes the nodes of these groups, which have none, and notes what of. A group without buildings is removed.';
+'Makes the nodes of these groups, which have none. What they are made of is for typify_hierarchy_note to write down.';
 
 -- One ranking over all groups: the next merge is that with the smallest running maximum of cost, of equal ones that in
 -- the first group by the bytes of its name, the NULL group last. What they leave is what the law leaves of all.
@@ -453,6 +474,10 @@ BEGIN
 	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', typify_table_name(hierarchy, 'hierarchy'));
 	part := typify_hierarchy_parts(hierarchy);
 	ranked := part.definition->>'life_spans' = 'ranked';
+	PERFORM typify_hierarchy_note(hierarchy);
+	IF NOT EXISTS (SELECT FROM pg_index WHERE indrelid = hierarchy AND indisprimary) THEN
+		EXECUTE format('ALTER TABLE %s ADD PRIMARY KEY (group_id, node)', part.nodes);
+	END IF;
 	IF ranked THEN
 		PERFORM typify_hierarchy_rank(hierarchy);
 	END IF;
@@ -475,7 +500,7 @@ BEGIN
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_complete(regclass) IS
-'What a hierarchy gets when its nodes are there: ranked life spans, the index by place, statistics, and a comment without "finished" that says what a look-up must know of all nodes: the greatest reach (typify_reach), and as top a scale that no scale_to but Infinity exceeds.';
+'What a hierarchy gets when its nodes are there: what they were made of (typify_hierarchy_note), its key, ranked life spans, the index by place, statistics, and a comment without "finished" that says what a look-up must know of all nodes: the greatest reach (typify_reach), and as top a scale that no scale_to but Infinity exceeds.';
 
 CREATE FUNCTION typify_hierarchy_begin(caller_schema name, name text, definition json, batch integer,
 	OUT hierarchy regclass, OUT groups integer, OUT done integer)
@@ -514,7 +539,7 @@ BEGIN
 		hierarchy := typify_hierarchy_create(nodes_name, groups_name, definition);
 	END IF;
 	PERFORM typify_hierarchy_mark(hierarchy, NULL);
-	EXECUTE format('SELECT count(*), count(state) FROM %s', groups_name) INTO groups, done;
+	EXECUTE format('SELECT count(*), count(*) FILTER (WHERE built) FROM %s', groups_name) INTO groups, done;
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_begin(name, text, json, integer) IS
@@ -532,13 +557,13 @@ BEGIN
 	-- two calls that build the same hierarchy at the same time take turns, and neither repeats what the other did
 	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', typify_table_name(hierarchy, 'hierarchy'));
 	groups := (typify_hierarchy_parts(hierarchy)).groups;
-	EXECUTE format('SELECT array_agg(group_id) FROM (SELECT group_id FROM %s WHERE state IS NULL '
+	EXECUTE format('SELECT array_agg(group_id) FROM (SELECT group_id FROM %s WHERE NOT built '
 		'ORDER BY group_id LIMIT $1) AS todo', groups) INTO ids USING batch;
 	IF ids IS NULL THEN
 		RETURN NULL;
 	END IF;
 	PERFORM typify_hierarchy_fill(hierarchy, ids);
-	EXECUTE format('SELECT count(state) FROM %s', groups) INTO done;
+	EXECUTE format('SELECT count(*) FILTER (WHERE built) FROM %s', groups) INTO done;
 	RETURN done;
 END
 $$;
