@@ -67,3 +67,12 @@ BEGIN ATOMIC
 END;
 COMMENT ON FUNCTION typify_metres_per_unit(integer) IS
 'Metres in a unit of a reference system: 0.3048 for feet, 1 where it is not known, NaN for degrees';
+
+CREATE FUNCTION typify_zoom_scale(zoom double precision, latitude double precision, tile_size integer DEFAULT 512)
+RETURNS double precision
+LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT 2 * pi() * 6378137 / tile_size / 0.00028 * cos(radians(latitude)) / power(2::double precision, zoom);
+END;
+COMMENT ON FUNCTION typify_zoom_scale(double precision, double precision, integer) IS
+'The denominator of the scale at which a web map (Web Mercator) shows a latitude (degrees) at a zoom, on a screen of 0.28 mm a pixel as OGC takes it. tile_size: pixels that a side of a tile takes on the screen: 512 in MapLibre, Mapbox GL and OpenLayers, 256 for raster tiles. typify_zoom_scale(11, 49.5) is 88 646.';

@@ -102,6 +102,36 @@ CREATE AGGREGATE typify_hierarchy(
 COMMENT ON AGGREGATE typify_hierarchy(geometry, bigint, double precision, typify_options, double precision) IS
 'The hierarchy of the buildings of a group: every vertex that there is at any scale, with its life span, as an array of typify_node in the order of their numbers. Those alive at a scale are the placeholders that typify_placeholders gives at that scale, exactly; typify_at draws them from a table that typify_build_hierarchy makes. The same bytes for any order of rows, serial or parallel. NULL for a group without a usable row. id: a key of the building inside its group. s_u: density control in 0 .. 1. options: see typify_options; NULL sets none. importance: of the building, as in typify_placeholders; Infinity keeps it. A row whose geometry is NULL or EMPTY is passed over. Errors: as of typify_placeholders; 22023 for options that make the result depend on one scale: count, min_distance, the black-white rule, min_area, keep_area; 0A000 for shapes with outlines; 54000 above 1 GB, four million buildings in a group.';
 
+CREATE FUNCTION typify_barred_hierarchy_transition(internal, geometry, bigint, double precision, typify_options, geometry,
+	double precision)
+RETURNS internal
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
+COMMENT ON FUNCTION typify_barred_hierarchy_transition(internal, geometry, bigint, double precision, typify_options,
+	geometry, double precision) IS
+'Support of typify_barred_hierarchy: measures a building and adds it to its group.';
+
+CREATE AGGREGATE typify_barred_hierarchy(
+	geom geometry,
+	id bigint,
+	s_u double precision,
+	options typify_options,
+	barriers geometry,
+	importance double precision)
+(
+	SFUNC = typify_barred_hierarchy_transition,
+	STYPE = internal,
+	SSPACE = 1024,
+	FINALFUNC = typify_hierarchy_final,
+	COMBINEFUNC = typify_combine,
+	SERIALFUNC = typify_serialize,
+	DESERIALFUNC = typify_deserialize,
+	PARALLEL = SAFE
+);
+COMMENT ON AGGREGATE typify_barred_hierarchy(geometry, bigint, double precision, typify_options, geometry,
+	double precision) IS
+'typify_hierarchy with barriers as an argument of its own, so that options can differ from group to group without a copy of the barriers in each. For wrappers; barriers as in typify_options.';
+
 CREATE FUNCTION typify_building_hash(geom geometry, id bigint)
 RETURNS bigint
 AS 'MODULE_PATHNAME'
@@ -158,7 +188,7 @@ COMMENT ON FUNCTION typify_node_placeholder(bigint, double precision, double pre
 -- instead of scale and allocation, so that what reads and calibrates the tables of a layer does so here.
 CREATE FUNCTION typify_hierarchy_definition(source regclass, s_u double precision, group_by name,
 	options typify_options, life_spans text, lod200 regclass, id_column name, geom_column name, lod200_id_column name,
-	lod200_geom_column name, lod200_group_by name, links regclass)
+	lod200_geom_column name, lod200_group_by name, links regclass, barriers regclass, barriers_geom_column name)
 RETURNS json
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
@@ -180,21 +210,22 @@ BEGIN
 			HINT = 'each_group gives every group its own count at a scale, ranked merges what is closest in all groups first.';
 	END IF;
 	layer := typify_layer_definition(source, lod200, coalesce((options).source_scale, 25000), s_u, group_by, options,
-		'each_group', id_column, geom_column, lod200_id_column, lod200_geom_column, lod200_group_by, links);
-	PERFORM typify_hierarchy('POINT(0 0)'::geometry, 0, s_u, options);
+		'each_group', id_column, geom_column, lod200_id_column, lod200_geom_column, lod200_group_by, links, barriers,
+		barriers_geom_column);
+	PERFORM typify_hierarchy(ST_SetSRID('POINT(0 0)'::geometry, coalesce(ST_SRID((options).barriers), 0)), 0, s_u, options);
 	RETURN (SELECT json_object_agg(CASE key WHEN 'lod25' THEN 'source' WHEN 'allocation' THEN 'life_spans' ELSE key END,
 			CASE key WHEN 'allocation' THEN to_json(life_spans) ELSE value END)
 		FROM json_each(layer) WHERE key <> 'scale');
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_definition(regclass, double precision, name, typify_options, text, regclass, name,
-	name, name, name, name, regclass) IS
+	name, name, name, name, regclass, regclass, name) IS
 'How a hierarchy is made, as its comment says it: a JSON object of the version of typify and the arguments of typify_build_hierarchy by their names. Errors: as of typify_layer_definition and typify_hierarchy; 22023 for other life_spans.';
 
 CREATE FUNCTION typify_hierarchy_layer(definition jsonb) RETURNS jsonb
 LANGUAGE sql IMMUTABLE PARALLEL SAFE
 BEGIN ATOMIC
-	SELECT definition - ARRAY['source', 'life_spans', 'reach', 'top'] || jsonb_build_object(
+	SELECT definition - ARRAY['source', 'life_spans', 'reach', 'top', 'barriers_state'] || jsonb_build_object(
 		'lod25', definition->'source', 'scale', coalesce((definition->'options'->>'source_scale')::float8, 25000),
 		'allocation', 'each_group');
 END;
@@ -261,8 +292,27 @@ $$;
 COMMENT ON FUNCTION typify_hierarchy_create(text, text, json) IS
 'The two empty tables of a hierarchy. Of nodes: group_id and the fields of typify_node, and place, by which they are found (typify_place). Of groups: grp, the group as text; count of its buildings; exponent and psi, where they are the group''s own; built, whether its nodes are there; state, a hash of its buildings (typify_building_hash of each, combined by bit_xor); reach, the greatest of its nodes (typify_reach); extent of its vertices; latitude of the middle of that, NULL where the SRID is not known. Both get their keys when they are filled.';
 
+CREATE FUNCTION typify_hierarchy_barriers(definition jsonb) RETURNS bigint
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+SET jit = off AS
+$$
+DECLARE
+	state bigint;
+BEGIN
+	IF to_regclass(definition->>'barriers') IS NOT NULL THEN
+		EXECUTE format('SELECT coalesce(sum(hash_record(b)), 0) FROM %s AS b', typify_barrier_source(
+			(definition->>'barriers')::regclass, (definition->>'barriers_geom_column')::name)) INTO state;
+	END IF;
+	RETURN state;
+END
+$$;
+COMMENT ON FUNCTION typify_hierarchy_barriers(jsonb) IS
+'A number that tells whether the table of barriers of a hierarchy is the same as before; NULL without one.';
+
 -- A group counts as changed when its buildings, exponent or psi are not what its nodes were made of, and when it is
--- named. Where nothing is calibrated, and groups are named, nothing else is looked at.
+-- named; all count as changed when the table of barriers is another than before. Where nothing is calibrated, and groups
+-- are named, nothing else is looked at.
 CREATE FUNCTION typify_hierarchy_changes(hierarchy regclass, named text[])
 RETURNS TABLE (group_id integer, grp text, count bigint, exponent double precision, psi double precision)
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
@@ -281,6 +331,7 @@ DECLARE
 	wanted text[] := CASE WHEN NOT calibrated THEN named END;
 	plan record;
 	compared boolean;
+	moved boolean := part.definition->>'barriers_state' IS DISTINCT FROM typify_hierarchy_barriers(part.definition)::text;
 BEGIN
 	IF NOT calibrated THEN
 		layer := layer || '{"lod200": null, "lod200_group_by": null}';
@@ -301,9 +352,10 @@ BEGIN
 			CASE WHEN $4 THEN level.exponent END, CASE WHEN $4 THEN level.psi END
 		FROM level FULL JOIN known USING (key) LEFT JOIN now USING (key)
 		WHERE level.key IS NULL OR known.key IS NULL OR $4 AND (known.exponent, known.psi) IS DISTINCT FROM
-			(level.exponent, level.psi) OR key = ANY ($5) OR NOT known.built OR $3 AND known.state IS DISTINCT FROM now.state
+			(level.exponent, level.psi) OR key = ANY ($5) OR NOT known.built OR $6 OR $3 AND known.state IS DISTINCT FROM now.state
 		ORDER BY known.group_id, level.place', part.groups, typify_layer_source(layer, wanted))
-	USING plan.levels, typify_group_keys(wanted), compared AND named IS NULL, calibrated, typify_group_keys(named);
+	USING plan.levels, typify_group_keys(wanted), compared AND named IS NULL, calibrated, typify_group_keys(named),
+		compared AND named IS NULL AND moved;
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_changes(regclass, text[]) IS
@@ -401,8 +453,12 @@ DECLARE
 	layer jsonb := typify_hierarchy_layer(part.definition);
 	given typify_options := typify_hierarchy_options(part.definition);
 	todo text[];
+	barriers geometry;
 BEGIN
 	EXECUTE format('SELECT array_agg(grp) FROM %s WHERE group_id = ANY ($1)', part.groups) INTO todo USING ids;
+	barriers := typify_barrier_lines((layer->>'barriers')::regclass, (layer->>'barriers_geom_column')::name, given, NULL,
+		typify_surroundings(typify_layer_source(layer, todo), todo, (layer->>'scale')::float8));
+	given := typify_options_without_barriers(given);
 	EXECUTE format(
 		'WITH todo AS (
 			SELECT group_id, typify_group_key(grp) AS key, coalesce(psi, ($2).psi, 0.75) AS psi, CASE
@@ -415,10 +471,12 @@ BEGIN
 			(n).area, (n).ratio, (n).ux, (n).uy, (n).cost, (n).scale_from, (n).scale_to,
 			typify_place((n).x, (n).y, typify_reach((n).area, (n).ratio, psi), (n).scale_to, $4)
 		FROM (
-			SELECT todo.group_id, todo.psi, unnest(typify_hierarchy(b.geom, b.id, $3, todo.options)) AS n
+			SELECT todo.group_id, todo.psi, unnest(%4$s) AS n
 			FROM %3$s AS b JOIN todo ON todo.key = typify_group_key(b.grp) GROUP BY todo.group_id, todo.psi
-		) AS one', part.nodes, part.groups, typify_layer_source(layer, todo))
-	USING ids, given, (part.definition->>'s_u')::float8, (layer->>'scale')::float8;
+		) AS one', part.nodes, part.groups, typify_layer_source(layer, todo), CASE WHEN barriers IS NULL
+			THEN 'typify_hierarchy(b.geom, b.id, $3, todo.options)'
+			ELSE 'typify_barred_hierarchy(b.geom, b.id, $3, todo.options, (SELECT $5), NULL)' END)
+	USING ids, given, (part.definition->>'s_u')::float8, (layer->>'scale')::float8, barriers;
 	EXECUTE format('UPDATE %s SET built = true WHERE group_id = ANY ($1)', part.groups) USING ids;
 END
 $$;
@@ -489,18 +547,25 @@ BEGIN
 	INTO bounds USING typify_hierarchy_options(part.definition), (typify_hierarchy_layer(part.definition)->>'scale')::float8;
 	SELECT json_object_agg(key, value) INTO definition
 	FROM (SELECT key, value FROM json_each(obj_description(hierarchy, 'pg_class')::json)
-		WHERE key NOT IN ('finished', 'reach', 'top')
-		UNION ALL VALUES ('reach', to_json(bounds.reach)), ('top', to_json(bounds.top))) AS pair;
+		WHERE key NOT IN ('finished', 'barriers_state', 'reach', 'top')
+		UNION ALL VALUES ('barriers_state', to_json(typify_hierarchy_barriers(part.definition))),
+			('reach', to_json(bounds.reach)), ('top', to_json(bounds.top))) AS pair;
 	EXECUTE format('COMMENT ON TABLE %s IS %L', part.nodes, definition);
 	IF typify_layer_index(hierarchy, 'place') IS NULL THEN
 		EXECUTE format('CREATE INDEX ON %s USING gist (place)', part.nodes);
+		EXECUTE format('CREATE INDEX ON %s USING gist (extent)', part.groups);
+		IF ranked THEN
+			-- ranking has written every row anew, in any order
+			EXECUTE format('CLUSTER %s USING %s', part.nodes, typify_layer_index(hierarchy, 'place'));
+			EXECUTE format('ALTER TABLE %s SET WITHOUT CLUSTER', part.nodes);
+		END IF;
 	END IF;
 	EXECUTE format('ANALYZE %s (group_id, node, scale_from, scale_to, place)', part.nodes);
 	EXECUTE format('ANALYZE %s', part.groups);
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_complete(regclass) IS
-'What a hierarchy gets when its nodes are there: what they were made of (typify_hierarchy_note), its key, ranked life spans, the index by place, statistics, and a comment without "finished" that says what a look-up must know of all nodes: the greatest reach (typify_reach), and as top a scale that no scale_to but Infinity exceeds.';
+'What a hierarchy gets when its nodes are there: what they were made of (typify_hierarchy_note), its key, ranked life spans, the index by place, statistics, and a comment without "finished" that says what a look-up must know of all nodes: the greatest reach (typify_reach), and as top a scale that no scale_to but Infinity exceeds; and barriers_state (typify_hierarchy_barriers).';
 
 CREATE FUNCTION typify_hierarchy_begin(caller_schema name, name text, definition json, batch integer,
 	OUT hierarchy regclass, OUT groups integer, OUT done integer)
@@ -586,6 +651,8 @@ CREATE PROCEDURE typify_build_hierarchy(
 	lod200_geom_column name DEFAULT 'geom',
 	lod200_group_by name DEFAULT NULL,
 	links regclass DEFAULT NULL,
+	barriers regclass DEFAULT NULL,
+	barriers_geom_column name DEFAULT 'geom',
 	batch integer DEFAULT 1000)
 LANGUAGE plpgsql AS
 $$
@@ -596,9 +663,9 @@ DECLARE
 	done integer;
 BEGIN
 	EXECUTE format('SELECT hierarchy, groups, done FROM %1$s.typify_hierarchy_begin(current_schema(), $1, '
-		'%1$s.typify_hierarchy_definition($2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13), $14)', typify)
+		'%1$s.typify_hierarchy_definition($2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15), $16)', typify)
 	INTO built, number, done USING hierarchy, source, s_u, group_by, options, life_spans, lod200, id_column, geom_column,
-		lod200_id_column, lod200_geom_column, lod200_group_by, links, batch;
+		lod200_id_column, lod200_geom_column, lod200_group_by, links, barriers, barriers_geom_column, batch;
 	COMMIT;
 	LOOP
 		EXECUTE format('SELECT %s.typify_hierarchy_build($1, $2)', typify) INTO done USING built, batch;
@@ -611,10 +678,11 @@ BEGIN
 END
 $$;
 COMMENT ON PROCEDURE typify_build_hierarchy(text, regclass, double precision, name, typify_options, text, regclass, name,
-	name, name, name, name, regclass, integer) IS
+	name, name, name, name, regclass, regclass, name, integer) IS
 'Builds the hierarchy of a table of buildings, from which typify_at takes any scale: a table of that name with a row for every node of every group (group_id, the fields of typify_node, and place, by which they are found), and a companion, the name with _groups behind it, with a row for every group. Its comment says in JSON how it was made.
 source: a table, view, materialized, partitioned or foreign table. group_by: a column of it, of any type; each of its values is a group, NULL too. s_u, options: as of typify_hierarchy.
 life_spans: each_group gives every group its own count at a scale, as typify_placeholders does, exactly. ranked divides the count of the whole table: what is closest in all groups merges first, so that dense groups are thinned more; a group keeps at least one.
 lod200: a coarse level, by which exponent and psi of each group are calibrated as typify_derive does; it and the arguments after it are those of typify_derive.
+barriers: lines that nothing is merged across, as in typify_derive.
 batch groups at a time are built, then a COMMIT and a NOTICE that says how many are done. After a stop (cancelled, failed, connection lost) the tables stay with what is done and "finished": false in the comment; calling with the same arguments goes on, with groups anew that changed meanwhile. CALL it outside a transaction block (2D000 inside).
 Errors: as of typify_hierarchy and typify_derive; 22023 for a batch below 1, other life_spans, and min_gap (use typify_create_scale); 42P07 for a name that exists; those of typify_create_scale for a name that cannot be.';

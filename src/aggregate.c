@@ -40,6 +40,8 @@ static const row_layout placeholders_layout = {.id = 2, .parameters = 3, .parame
 static const row_layout barred_layout = {.id = 2, .parameters = 3, .parameter_count = 4, .importance = 7};
 static const row_layout hierarchy_layout = {
 	.id = 2, .parameters = 2, .parameter_count = 3, .importance = 5, .without_scale = true};
+static const row_layout barred_hierarchy_layout = {
+	.id = 2, .parameters = 2, .parameter_count = 4, .importance = 6, .without_scale = true};
 
 /* The context of states; the one preamble of all five functions. */
 static MemoryContext
@@ -344,6 +346,13 @@ Datum
 typify_hierarchy_transition(PG_FUNCTION_ARGS)
 {
 	return add_row(fcinfo, &hierarchy_layout);
+}
+
+PG_FUNCTION_INFO_V1(typify_barred_hierarchy_transition);
+Datum
+typify_barred_hierarchy_transition(PG_FUNCTION_ARGS)
+{
+	return add_row(fcinfo, &barred_hierarchy_layout);
 }
 
 /* what is looked for among the arguments of the workers' aggregate */

@@ -4,6 +4,7 @@
 #ifndef TY_GROUP_INTERNAL_H
 #define TY_GROUP_INTERNAL_H
 
+#include "alignment.h"
 #include "areas.h"
 #include "collapse.h"
 #include "grid.h"
@@ -25,6 +26,7 @@ typedef struct ty_group
 	int weight_exponent;   /* of weight (influence.h) */
 	uint64_t *area_bits;   /* [largest number of members] scratch of the median ... */
 	uint32_t *sorted;	   /* ... and what its sort moves along */
+	ty_rows rows;		   /* with alignment; else none */
 } ty_group;
 
 typedef ty_group group;
