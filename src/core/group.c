@@ -53,7 +53,8 @@ typedef struct group
 	const ty_building *buildings;
 	ty_outline *const *outlines;
 	const ty_parameters *parameters;
-	const double *importance; /* by building, or NULL */
+	const double *importance;		  /* by building, or NULL */
+	const ty_barrier_lines *barriers; /* or NULL */
 	ty_grid grid;
 	area_scale scale;
 	double area_factor;
@@ -322,7 +323,7 @@ static ty_status
 lay_out_rows(const ty_environment *env, const group *g, const uint32_t *label, size_t n, ty_result *result)
 {
 	uint32_t *keeper = ty_allocate_array(env, result->count, sizeof *keeper);
-	ty_drawn_rows drawn = {&g->rows, g->buildings, g->order, label, keeper};
+	ty_drawn_rows drawn = {&g->rows, g->buildings, g->order, label, keeper, g->barriers};
 	size_t next = 0;
 	ty_status status;
 
@@ -358,18 +359,33 @@ cut_and_describe(const ty_environment *env, group *g, const ty_sequence *sequenc
 	return status;
 }
 
+/* what the rows of a group are found with */
+typedef struct row_search
+{
+	const group *group;
+	const ty_barriers *barriers;
+} row_search;
+
+static bool
+barrier_parts(const void *context, ty_position a, ty_position b)
+{
+	return ty_barriers_cross(context, a, b);
+}
+
 /* The rows of the group, found in the mesh of its collapse. */
 static ty_status
 find_rows(const void *context, const ty_mesh *mesh, ty_rows *rows)
 {
-	const group *g = context;
+	const row_search *search = context;
+	const group *g = search->group;
+	ty_parting parting = {search->barriers->count > 0 ? barrier_parts : NULL, search->barriers};
 	ty_trait *trait = ty_allocate_array(mesh->env, mesh->vertices, sizeof *trait);
 	ty_status status;
 
 	if (trait == NULL)
 		return TY_NO_MEMORY;
 	ty_traits(g->buildings, g->order, mesh, &g->grid, trait);
-	status = ty_rows_detect(mesh->env, mesh, trait, rows);
+	status = ty_rows_detect(mesh->env, mesh, trait, parting, rows);
 	ty_release(mesh->env, trait);
 	return status;
 }
@@ -449,6 +465,7 @@ collapse_group(const ty_environment *env, group *g, const ty_input *input, ty_se
 {
 	ty_barriers barriers = {.env = env};
 	ty_influence influence = {.importance = g->weight};
+	row_search search = {g, &barriers};
 	double alignment = g->parameters->alignment;
 	ty_status status = TY_OK;
 
@@ -464,7 +481,7 @@ collapse_group(const ty_environment *env, group *g, const ty_input *input, ty_se
 		influence.rows = &g->rows;
 		influence.alignment = alignment;
 		influence.find_rows = find_rows;
-		influence.context = g;
+		influence.context = &search;
 	}
 	if (status == TY_OK)
 		status = ty_collapse_keyed(env, g->position, take_keys(g), input->n, g->parameters->s_u,
@@ -482,6 +499,7 @@ typify_houses(const ty_environment *env, const ty_input *input, const ty_paramet
 	group g = {.buildings = input->buildings,
 			   .outlines = input->outlines,
 			   .importance = input->importance,
+			   .barriers = input->barriers,
 			   .parameters = p,
 			   .area_factor = ty_area_factor(p)};
 	ty_sequence sequence = {0};
