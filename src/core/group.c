@@ -51,6 +51,7 @@ sum_areas(const ty_building *buildings, const uint32_t *members, size_t n, area_
 typedef struct group
 {
 	const ty_building *buildings;
+	ty_outline *const *outlines;
 	const ty_parameters *parameters;
 	const double *importance; /* by building, or NULL */
 	ty_grid grid;
@@ -140,14 +141,35 @@ area_statistic(const ty_environment *env, const group *g, const uint32_t *member
 	return TY_OK;
 }
 
-/* How large the placeholder is drawn, whose representative is b: a kept one as if it stood for itself alone. */
+/* The direction and the place of the rectangle around an outline whose centre is the vertex. */
 static void
-set_size(const group *g, const ty_building *b, double statistic, ty_placeholder *p)
+fit_outline(const ty_outline *outline, ty_size size, ty_placeholder *p)
 {
-	double area = p->kept ? b->area : ty_scaled_area(g->parameters, g->area_factor, statistic);
-	double ratio = g->parameters->shape == TY_SQUARE ? 1 : b->ratio;
-	ty_size size = ty_drawn_size(g->parameters, p->kept ? b->area : statistic, area, ratio, p->kept ? 1 : p->count);
+	ty_point centre = ty_outline_box_centre(outline, sqrt(size.area / outline->area));
 
+	p->ux = outline->ux;
+	p->uy = outline->uy;
+	p->x += centre.x;
+	p->y += centre.y;
+}
+
+/* How large the placeholder is drawn, whose place and representative are known: a kept one as if it were alone. */
+static void
+set_size(const group *g, double statistic, ty_placeholder *p)
+{
+	const ty_outline *outline = g->outlines == NULL ? NULL : g->outlines[p->representative];
+	const ty_building *b = &g->buildings[p->representative];
+	double ratio = g->parameters->shape == TY_SQUARE ? 1 : b->ratio;
+	double area = p->kept ? b->area : ty_scaled_area(g->parameters, g->area_factor, statistic);
+	size_t members = p->kept ? 1 : p->count;
+	ty_size size;
+
+	statistic = p->kept ? b->area : statistic;
+	size = outline != NULL && area > 0 ? ty_outline_drawn_size(g->parameters, outline, statistic, area)
+									   : ty_drawn_size(g->parameters, statistic, area, ratio, members);
+	p->outlined = outline != NULL && area > 0;
+	if (p->outlined)
+		fit_outline(outline, size, p);
 	p->area = size.area;
 	p->ratio = size.ratio;
 	p->width = size.width;
@@ -206,7 +228,7 @@ describe(const ty_environment *env, const group *g, const uint32_t *members, uin
 	p->y = p->count == 1 || p->kept ? b->y : ty_grid_y(&g->grid, g->position[rank].y);
 	p->ux = b->ux;
 	p->uy = b->uy;
-	set_size(g, b, statistic, p);
+	set_size(g, statistic, p);
 	if (status == TY_OK && (!isfinite(p->area) || !isfinite(p->length)))
 		status = TY_NOT_FINITE;
 	return status;
@@ -379,6 +401,7 @@ typify_houses(const ty_environment *env, const ty_input *input, const ty_paramet
 	size_t n = input->n;
 	group g = {.buildings = input->buildings,
 			   .importance = input->importance,
+			   .outlines = input->outlines,
 			   .parameters = p,
 			   .area_factor = ty_area_factor(p)};
 	ty_sequence sequence = {0};

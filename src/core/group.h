@@ -6,6 +6,7 @@
 
 #include "environment.h"
 #include "measure.h"
+#include "outline.h"
 #include "placeholder.h"
 
 /* What a group is made of. Only read. */
@@ -18,18 +19,23 @@ typedef struct ty_input
 	 * have the same, or which of them has which is not a matter of the set alone.
 	 */
 	const double *importance;
+	/* [n] those with which placeholders are drawn, NULL for a building that has none; or NULL as a whole */
+	ty_outline *const *outlines;
 } ty_input;
 
 typedef struct ty_placeholder
 {
-	double x, y; /* the vertex, ground units; of a single or kept building its very centroid, off the grid */
+	/* centre of the rectangle, ground units: the vertex; of a single or kept building its very centroid, off the grid */
+	double x, y;
 	double area; /* what is drawn, ground units; 0: no size, not drawn */
+	/* of the rectangle; where the representative has an outline, of the one around it, whose centre is not the vertex */
 	double width, length;
 	double ratio;			 /* width / length; of the representative unless min_side changed it, 1 for squares */
 	double ux, uy;			 /* of the representative */
 	uint32_t representative; /* index into the caller's buildings */
 	uint32_t first, count;	 /* members: ty_result.members[first .. first + count) */
 	bool kept;				 /* the representative is kept: in place, with its own area */
+	bool outlined;			 /* drawn with the representative's outline, not as a rectangle */
 } ty_placeholder;
 
 typedef struct ty_result

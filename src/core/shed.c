@@ -34,7 +34,26 @@ part_buildings(const ty_parameters *p, ty_sheds *sheds)
 		sheds->index[at] = (uint32_t) i;
 		if (is_house && sheds->importance != NULL)
 			sheds->importance[at] = input->importance[i];
+		if (is_house && sheds->outlines != NULL)
+			sheds->outlines[at] = input->outlines[i];
 	}
+}
+
+static bool
+allocate(const ty_environment *env, ty_sheds *sheds)
+{
+	const ty_input *input = sheds->input;
+	size_t houses = input->n - sheds->count;
+
+	sheds->buildings = ty_allocate_array(env, input->n, sizeof *sheds->buildings);
+	sheds->index = ty_allocate_array(env, input->n, sizeof *sheds->index);
+	if (input->importance != NULL)
+		sheds->importance = ty_allocate_array(env, houses, sizeof *sheds->importance);
+	if (input->outlines != NULL)
+		sheds->outlines = ty_allocate_array(env, houses, sizeof *sheds->outlines);
+	return sheds->buildings != NULL && sheds->index != NULL &&
+		   (input->importance == NULL || sheds->importance != NULL) &&
+		   (input->outlines == NULL || sheds->outlines != NULL);
 }
 
 ty_status
@@ -45,15 +64,13 @@ ty_sheds_part(const ty_environment *env, const ty_input *input, const ty_paramet
 		sheds->count += is_shed(input, p, i);
 	if (sheds->count == 0)
 		return TY_OK;
-	sheds->buildings = ty_allocate_array(env, input->n, sizeof *sheds->buildings);
-	sheds->index = ty_allocate_array(env, input->n, sizeof *sheds->index);
-	if (input->importance != NULL)
-		sheds->importance = ty_allocate_array(env, input->n - sheds->count, sizeof *sheds->importance);
-	if (sheds->buildings == NULL || sheds->index == NULL || (input->importance != NULL && sheds->importance == NULL))
+	if (!allocate(env, sheds))
 		return TY_NO_MEMORY;
 	part_buildings(p, sheds);
-	sheds->houses =
-		(ty_input){.buildings = sheds->buildings, .n = input->n - sheds->count, .importance = sheds->importance};
+	sheds->houses = (ty_input){.buildings = sheds->buildings,
+							   .n = input->n - sheds->count,
+							   .importance = sheds->importance,
+							   .outlines = sheds->outlines};
 	return TY_OK;
 }
 
@@ -62,6 +79,7 @@ ty_sheds_free(const ty_environment *env, ty_sheds *sheds)
 {
 	ty_release(env, sheds->buildings);
 	ty_release(env, sheds->importance);
+	ty_release(env, sheds->outlines);
 	ty_release(env, sheds->index);
 }
 

@@ -13,6 +13,7 @@ typedef struct ty_sheds
 	ty_input houses;		/* all others; the caller's own input where there are no sheds */
 	ty_building *buildings; /* [input's n] houses, then sheds; NULL where there are no sheds */
 	double *importance;		/* [houses] or NULL */
+	ty_outline **outlines;	/* [houses] or NULL */
 	uint32_t *index;		/* [input's n] of a building in the input */
 	size_t count;			/* of sheds */
 } ty_sheds;
