@@ -53,7 +53,8 @@ COMMENT ON FUNCTION typify_layer_name(name, text) IS
 
 CREATE FUNCTION typify_layer_definition(lod25 regclass, lod200 regclass, scale double precision, s_u double precision,
 	group_by name, options typify_options, allocation text, id_column name, geom_column name,
-	lod200_id_column name, lod200_geom_column name, lod200_group_by name, links regclass)
+	lod200_id_column name, lod200_geom_column name, lod200_group_by name, links regclass,
+	importance_column name)
 RETURNS json
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
@@ -77,12 +78,13 @@ BEGIN
 		'options', jsonb_strip_nulls(to_jsonb(options) || jsonb_build_object('barriers', (options).barriers::text)),
 		'id_column', id_column, 'geom_column', geom_column, 'lod200_id_column', lod200_id_column,
 		'lod200_geom_column', lod200_geom_column, 'lod200_group_by', lod200_group_by,
-		'links', CASE WHEN links IS NOT NULL THEN typify_table_name(links, 'links') END);
+		'links', CASE WHEN links IS NOT NULL THEN typify_table_name(links, 'links') END,
+		'importance_column', importance_column);
 END
 $$;
 
 COMMENT ON FUNCTION typify_layer_definition(regclass, regclass, double precision, double precision, name,
-	typify_options, text, name, name, name, name, name, regclass) IS
+	typify_options, text, name, name, name, name, name, regclass, name) IS
 'How a layer is derived, as its comment says it: a JSON object of the version of typify, the arguments of typify_derive by their names (relations with schema) and, among options, those that are set. Errors: 22004 for a NULL where a value is needed; those of typify_table_name.';
 
 CREATE FUNCTION typify_layer_comment(relation oid) RETURNS jsonb
@@ -143,11 +145,11 @@ BEGIN
 	END IF;
 	RETURN format('%s(lod25 => %L::regclass, lod200 => %L::regclass, scale => %L, s_u => %L, group_by => %L, box => NULL, '
 		'options => %s, allocation => %L, id_column => %L, geom_column => %L, lod200_id_column => %L, '
-		'lod200_geom_column => %L, lod200_group_by => %L, links => %L::regclass, groups => %s)',
+		'lod200_geom_column => %L, lod200_group_by => %L, links => %L::regclass, importance_column => %L, groups => %s)',
 		function, definition->>'lod25', definition->>'lod200', definition->>'scale', definition->>'s_u',
 		definition->>'group_by', options, definition->>'allocation', definition->>'id_column',
 		definition->>'geom_column', definition->>'lod200_id_column', definition->>'lod200_geom_column',
-		definition->>'lod200_group_by', definition->>'links', groups);
+		definition->>'lod200_group_by', definition->>'links', definition->>'importance_column', groups);
 END
 $$;
 
@@ -211,7 +213,8 @@ CREATE FUNCTION typify_layer_source(definition jsonb, groups text[] DEFAULT NULL
 LANGUAGE sql STABLE PARALLEL SAFE
 BEGIN ATOMIC
 	SELECT typify_lod25_source((definition->>'lod25')::regclass, (definition->>'id_column')::name,
-		(definition->>'geom_column')::name, (definition->>'group_by')::name, (definition->>'links')::regclass, groups);
+		(definition->>'geom_column')::name, (definition->>'group_by')::name, (definition->>'links')::regclass, groups,
+		(definition->>'importance_column')::name);
 END;
 
 COMMENT ON FUNCTION typify_layer_source(jsonb, text[]) IS
@@ -389,17 +392,18 @@ CREATE FUNCTION typify_create_scale(
 	lod200_id_column name DEFAULT 'id',
 	lod200_geom_column name DEFAULT 'geom',
 	lod200_group_by name DEFAULT NULL,
-	links regclass DEFAULT NULL)
+	links regclass DEFAULT NULL,
+	importance_column name DEFAULT NULL)
 RETURNS regclass
 LANGUAGE sql
 BEGIN ATOMIC
 	SELECT typify_layer_create(current_schema(), name, kind, typify_layer_definition(lod25, lod200, scale, s_u,
 		group_by, options, allocation, id_column, geom_column, lod200_id_column, lod200_geom_column, lod200_group_by,
-		links));
+		links, importance_column));
 END;
 
 COMMENT ON FUNCTION typify_create_scale(text, regclass, regclass, double precision, double precision, name, text,
-	typify_options, text, name, name, name, name, name, regclass) IS
+	typify_options, text, name, name, name, name, name, regclass, name) IS
 'Creates a layer: the placeholders of typify_derive at one scale, stored, and returns it. name is written as in SQL, with or without a schema; kind is ''materialized view'' or ''table''; all other arguments are those of typify_derive. The layer has its columns, a unique index on id (the id of the representative, which does not change when buildings elsewhere do), geom of type geometry(Polygon, SRID) with a spatial index, for tables an index on grp, and a JSON comment that says how it was derived. It is dropped by DROP. Errors: 42P07 when the name is taken; 42602, 42622, 3F000 for a name that is none, is too long or has a schema that is missing; 22023 for another kind; 22004 for a NULL where a value is needed; 0A000 for a materialized view of a temporary table; those of typify_derive.';
 
 CREATE FUNCTION typify_refresh_scale(name regclass, concurrently boolean DEFAULT false) RETURNS void
@@ -642,7 +646,8 @@ CREATE PROCEDURE typify_build_scale(
 	lod200_geom_column name DEFAULT 'geom',
 	lod200_group_by name DEFAULT NULL,
 	links regclass DEFAULT NULL,
-	batch integer DEFAULT 1000)
+	batch integer DEFAULT 1000,
+	importance_column name DEFAULT NULL)
 LANGUAGE plpgsql AS
 $$
 DECLARE
@@ -652,9 +657,9 @@ DECLARE
 	done integer := 0;
 BEGIN
 	EXECUTE format('SELECT * FROM %1$s.typify_layer_begin(current_schema(), $1, %1$s.typify_layer_definition($2, $3, $4, '
-		'$5, $6, $7, $8, $9, $10, $11, $12, $13, $14), $15)', typify)
+		'$5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15), $16)', typify)
 	INTO layer, number USING name, lod25, lod200, scale, s_u, group_by, options, allocation, id_column, geom_column,
-		lod200_id_column, lod200_geom_column, lod200_group_by, links, batch;
+		lod200_id_column, lod200_geom_column, lod200_group_by, links, importance_column, batch;
 	WHILE done < number LOOP
 		EXECUTE format('SELECT %s.typify_layer_build($1, $2, $3)', typify)
 			USING layer, done + 1, least(done + batch::bigint, number)::integer;
@@ -668,5 +673,5 @@ END
 $$;
 
 COMMENT ON PROCEDURE typify_build_scale(text, regclass, regclass, double precision, double precision, name,
-	typify_options, text, name, name, name, name, name, regclass, integer) IS
+	typify_options, text, name, name, name, name, name, regclass, integer, name) IS
 'Creates the layer that typify_create_scale creates with kind => ''table'', group by group: batch groups at a time, a COMMIT after each, and a NOTICE that says how many are done. After a stop (cancelled, failed, connection lost) the table stays with what is done and "finished": false in its comment; calling with the same arguments goes on with the groups that have no rows yet. Groups, counts and calibration are found once, at the beginning, so that it takes little longer than typify_create_scale. A call that goes on keeps to them, unless a building, its group, or what LOD200 has of a group is another than then: that is said (NOTICE), and the table is begun anew. Edits while a call runs are edits like any later: name their groups to typify_refresh_groups when it is finished. CALL it outside a transaction block (2D000 inside). Other errors: as of typify_create_scale; 22023 for a batch below 1.';
