@@ -23,6 +23,7 @@
 #include "core/mesh.h"
 #include "geometry.h"
 #include "options.h"
+#include "partial.h"
 #include "progress.h"
 #include "state.h"
 
@@ -32,12 +33,13 @@
 typedef struct row_layout
 {
 	int id;
-	int parameters;
+	int parameters, parameter_count;
 	int importance;
 } row_layout;
 
-static const row_layout geometry_layout = {.parameters = 2};
-static const row_layout placeholders_layout = {.id = 2, .parameters = 3, .importance = 6};
+static const row_layout geometry_layout = {.parameters = 2, .parameter_count = 3};
+static const row_layout placeholders_layout = {.id = 2, .parameters = 3, .parameter_count = 3, .importance = 6};
+static const row_layout barred_layout = {.id = 2, .parameters = 3, .parameter_count = 4, .importance = 7};
 
 /* The context of states; the one preamble of all five functions. */
 static MemoryContext
@@ -69,11 +71,17 @@ static ty_state *
 state_for_row(FunctionCallInfo fcinfo, MemoryContext context, const row_layout *layout, int32 srid)
 {
 	ty_state *s = PG_ARGISNULL(0) ? NULL : (ty_state *) PG_GETARG_POINTER(0);
-	ty_call *call = ty_call_of(fcinfo, layout->parameters, 1);
-	const ty_parameters *parameters = ty_call_parameters(call, &fcinfo->args[layout->parameters], s == NULL);
+	ty_call *call = ty_call_of(fcinfo, layout->parameters, layout->parameter_count, 1);
+	const ty_parameters *parameters;
 
+	call->group_context = context;
+	parameters = ty_call_parameters(call, &fcinfo->args[layout->parameters], s == NULL);
 	if (s == NULL)
+	{
 		s = ty_state_new(context, parameters, srid, ty_check_srid(&call->srids, srid), call->srids.geometry_type);
+		s->barriers = call->barriers.current;
+		ty_check_barrier_srid(s->barriers, srid);
+	}
 	else if (unlikely(s->generation != call->generation) && !ty_same_parameters(&s->parameters, parameters))
 		ty_refuse_varying_parameters();
 	s->generation = call->generation;
@@ -114,7 +122,7 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 	importance = row_importance(fcinfo, layout->importance);
 	ty_state_add(s, &building);
 	if (unlikely(importance != 1))
-		ty_state_give_importance(s, importance);
+		ty_state_set_importance(s, importance);
 	if (unlikely(ty_wants_outline(&s->parameters)))
 		add_outline(s, PG_GETARG_DATUM(1));
 	PG_RETURN_POINTER(s);
@@ -129,7 +137,11 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 static void
 state_typify(const ty_state *s, ty_result *result)
 {
-	ty_input input = {.buildings = s->buildings, .n = s->count, .importance = s->importance, .outlines = s->outlines};
+	ty_input input = {.buildings = s->buildings,
+					  .n = s->count,
+					  .importance = s->importance,
+					  .outlines = s->outlines,
+					  .barriers = ty_lines_of_barriers(s->barriers)};
 	ty_parameters parameters = s->parameters;
 
 	ty_bring_to_ground(&parameters, s->metres_per_unit);
@@ -375,6 +387,64 @@ typify_placeholders_transition(PG_FUNCTION_ARGS)
 	return add_row(fcinfo, &placeholders_layout);
 }
 
+PG_FUNCTION_INFO_V1(typify_barred_transition);
+Datum
+typify_barred_transition(PG_FUNCTION_ARGS)
+{
+	return add_row(fcinfo, &barred_layout);
+}
+
+/* what is looked for among the arguments of the workers' aggregate */
+typedef struct barrier_search
+{
+	ty_barrier_cache *cache;
+	MemoryContext context, long_context; /* of the group and of the query */
+	ty_barrier_hash hash;
+	ty_barrier_set *found;
+} barrier_search;
+
+/* Barriers come in the options, or as a geometry that is not the first argument. */
+static bool
+look_for_barriers(void *context, int argument, Datum value, Oid type, bool per_query)
+{
+	barrier_search *search = context;
+	bool options = type_is_rowtype(type);
+
+	if (argument == 0 || (!options && get_typlen(type) != -1))
+		return false;
+	if (options)
+		value = ty_barriers_of_options(value);
+	if (value == (Datum) 0 || !ty_same_barriers(ty_check_barriers(value), search->hash))
+		return false;
+	search->found = ty_keep_barriers_datum(search->cache, per_query ? search->long_context : search->context,
+										   search->hash, value, per_query);
+	return true;
+}
+
+/* Gives a the barriers that b has or, where a worker sent their hash alone, that the plan has. */
+static void
+adopt_barriers(FunctionCallInfo fcinfo, MemoryContext context, ty_state *a, const ty_state *b)
+{
+	FmgrInfo *function = fcinfo->flinfo;
+	barrier_search search = {.context = context, .long_context = function->fn_mcxt, .hash = b->parameters.barriers};
+
+	if (a->barriers != NULL || ty_no_barriers(search.hash))
+		return;
+	if (function->fn_extra == NULL)
+		function->fn_extra = MemoryContextAllocZero(function->fn_mcxt, sizeof(ty_barrier_cache));
+	search.cache = function->fn_extra;
+	a->barriers = ty_find_barriers(search.cache, context, search.hash);
+	if (a->barriers == NULL && b->barriers != NULL)
+		a->barriers =
+			ty_keep_barriers(search.cache, context, search.hash, b->barriers->payload, b->barriers->size, false);
+	if (a->barriers == NULL && ty_visit_partial_arguments(fcinfo, look_for_barriers, &search))
+		a->barriers = search.found;
+	if (a->barriers == NULL)
+		ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				errmsg("the barriers of a parallel query are not in its plan"),
+				errhint("SET max_parallel_workers_per_gather = 0"));
+}
+
 PG_FUNCTION_INFO_V1(typify_combine);
 Datum
 typify_combine(PG_FUNCTION_ARGS)
@@ -388,7 +458,10 @@ typify_combine(PG_FUNCTION_ARGS)
 	if (a == NULL)
 		a = ty_state_new(context, &b->parameters, b->srid, b->metres_per_unit, b->geometry_type);
 	if (b != NULL)
+	{
+		adopt_barriers(fcinfo, context, a, b);
 		ty_state_merge(a, b);
+	}
 	PG_RETURN_POINTER(a);
 }
 

@@ -21,6 +21,7 @@
 
 #define GEOMETRY 0
 #define PARAMETERS 1
+#define PARAMETER_COUNT 3
 
 #define NO_CLUSTER (-1) /* a row without geometry */
 
@@ -39,6 +40,7 @@ typedef struct gathering
 	uint64 generation; /* of the call's parameters at the first building; 0: there is none yet */
 	int32 srid;
 	double metres_per_unit; /* of the SRID */
+	ty_barrier_set *barriers;
 	size_t count;
 	ty_building *buildings; /* [rows], of which count are taken */
 	bool *usable;			/* [rows] whether the row has a building */
@@ -75,6 +77,8 @@ check_row(gathering *g, WindowObject window, int64 row, int32 srid)
 		g->parameters = call->parameters;
 		g->generation = call->generation;
 		g->srid = srid;
+		g->barriers = call->barriers.current;
+		ty_check_barrier_srid(g->barriers, srid);
 	}
 	if (g->generation != call->generation)
 		ty_refuse_varying_parameters();
@@ -125,7 +129,9 @@ typify_gathered(gathering *g, ty_result *result)
 	if (g->count > 0)
 	{
 		ty_bring_to_ground(&g->parameters, g->metres_per_unit);
-		ty_typify_group(&(ty_input){.buildings = g->buildings, .n = g->count}, &g->parameters, result);
+		ty_typify_group(
+			&(ty_input){.buildings = g->buildings, .n = g->count, .barriers = ty_lines_of_barriers(g->barriers)},
+			&g->parameters, result);
 	}
 	pfree(g->buildings);
 }
@@ -181,7 +187,10 @@ typify_cluster(PG_FUNCTION_ARGS)
 	p = WinGetPartitionLocalMemory(window, sizeof(partition));
 	if (!p->done)
 	{
-		p->cluster = cluster_partition(ty_call_of(fcinfo, PARAMETERS, GEOMETRY), window, GetMemoryChunkContext(p));
+		ty_call *call = ty_call_of(fcinfo, PARAMETERS, PARAMETER_COUNT, GEOMETRY);
+
+		call->group_context = GetMemoryChunkContext(p);
+		p->cluster = cluster_partition(call, window, GetMemoryChunkContext(p));
 		p->done = true;
 	}
 	cluster = p->cluster[WinGetCurrentPosition(window)];

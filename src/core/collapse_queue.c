@@ -26,22 +26,11 @@
 
 /* ---- cost and order ---- */
 
-/* f_a * distance (paper; symmetric form of spec 2.3) */
-static inline double
-plain_cost(const ty_run *run, uint32_t a, uint32_t b)
-{
-	const ty_vertex *p = &run->vertex[a], *q = &run->vertex[b];
-	double length = sqrt((double) ty_squared_distance(p->position, q->position));
-	double factor = run->s_u * (((double) p->size - 1) + ((double) q->size - 1)) + 1;
-
-	return factor * length;
-}
-
 /* with what influences make of it, barriers aside */
 static inline double
 edge_cost(const ty_run *run, uint32_t a, uint32_t b)
 {
-	double cost = plain_cost(run, a, b);
+	double cost = ty_plain_cost(run, a, b);
 
 	return __builtin_expect(run->influence == NULL, 1) ? cost : ty_influenced_cost(run, a, b, cost);
 }
@@ -201,7 +190,7 @@ least_edge(const ty_run *run, uint32_t v, bool influenced)
 
 		if (w != TY_GHOST)
 		{
-			ty_edge e = {plain_cost(run, v, w), v, w};
+			ty_edge e = {ty_plain_cost(run, v, w), v, w};
 
 			if (influenced)
 				e.cost = ty_influenced_cost(run, v, w, e.cost);

@@ -59,6 +59,7 @@ typedef struct group
 	double area_factor;
 	uint32_t *order;	   /* [n] building by rank */
 	ty_position *position; /* [n] by rank */
+	uint64_t *keys;		   /* [n] by rank, until the collapse takes them */
 	double *weight;		   /* [n] importance by rank, INFINITY: kept; NULL where nothing is weighed or kept */
 	int weight_exponent;   /* of weight (influence.h) */
 	uint64_t *area_bits;   /* [largest number of members] scratch of the median ... */
@@ -153,20 +154,21 @@ fit_outline(const ty_outline *outline, ty_size size, ty_placeholder *p)
 	p->y += centre.y;
 }
 
-/* How large the placeholder is drawn, whose place and representative are known: a kept one as if it were alone. */
+/*
+ * How large the placeholder is drawn, whose place and representative are known: a kept one as if it stood for itself
+ * alone.
+ */
 static void
 set_size(const group *g, double statistic, ty_placeholder *p)
 {
-	const ty_outline *outline = g->outlines == NULL ? NULL : g->outlines[p->representative];
 	const ty_building *b = &g->buildings[p->representative];
+	const ty_outline *outline = g->outlines == NULL ? NULL : g->outlines[p->representative];
 	double ratio = g->parameters->shape == TY_SQUARE ? 1 : b->ratio;
+	double own = p->kept ? b->area : statistic;
 	double area = p->kept ? b->area : ty_scaled_area(g->parameters, g->area_factor, statistic);
-	size_t members = p->kept ? 1 : p->count;
-	ty_size size;
+	ty_size size = outline != NULL && area > 0 ? ty_outline_drawn_size(g->parameters, outline, own, area)
+											   : ty_drawn_size(g->parameters, own, area, ratio, p->kept ? 1 : p->count);
 
-	statistic = p->kept ? b->area : statistic;
-	size = outline != NULL && area > 0 ? ty_outline_drawn_size(g->parameters, outline, statistic, area)
-									   : ty_drawn_size(g->parameters, statistic, area, ratio, members);
 	p->outlined = outline != NULL && area > 0;
 	if (p->outlined)
 		fit_outline(outline, size, p);
@@ -349,15 +351,23 @@ find_stop(const group *g, size_t n)
 static ty_status
 order_group(const ty_environment *env, group *g, size_t n)
 {
-	uint64_t *keys = ty_allocate_array(env, n, sizeof *keys);
 	ty_status status = TY_NO_MEMORY;
 
+	g->keys = ty_allocate_array(env, n, sizeof *g->keys);
 	g->order = ty_allocate_array(env, n, sizeof *g->order);
 	g->position = ty_allocate_array(env, n, sizeof *g->position);
-	if (keys != NULL && g->order != NULL && g->position != NULL)
-		status = ty_canonical_order(env, g->buildings, n, &g->grid, g->order, g->position, keys);
-	ty_release(env, keys);
+	if (g->keys != NULL && g->order != NULL && g->position != NULL)
+		status = ty_canonical_order(env, g->buildings, n, &g->grid, g->order, g->position, g->keys);
 	return status;
+}
+
+static uint64_t *
+take_keys(group *g)
+{
+	uint64_t *keys = g->keys;
+
+	g->keys = NULL;
+	return keys;
 }
 
 /* whether a building is to be kept for its size */
@@ -385,13 +395,27 @@ weigh_group(const ty_environment *env, group *g, size_t n)
 	return TY_OK;
 }
 
+/* The merge sequence, under what weighs edges besides their lengths. */
 static ty_status
-collapse_group(const ty_environment *env, const group *g, size_t n, ty_sequence *sequence)
+collapse_group(const ty_environment *env, group *g, const ty_input *input, ty_sequence *sequence)
 {
-	const ty_influence influence = {.importance = g->weight};
+	ty_barriers barriers = {.env = env};
+	ty_influence influence = {.importance = g->weight};
+	ty_status status = TY_OK;
 
-	return ty_collapse(env, g->position, n, g->parameters->s_u, g->weight != NULL ? &influence : NULL, find_stop(g, n),
-					   false, NULL, NULL, sequence);
+	if (input->barriers != NULL)
+		status = ty_barriers_fit(env, input->barriers, &g->grid, g->position, input->n, &barriers);
+	if (barriers.count > 0)
+	{
+		influence.crosses = ty_barriers_bar;
+		influence.barriers = &barriers;
+	}
+	if (status == TY_OK)
+		status = ty_collapse_keyed(env, g->position, take_keys(g), input->n, g->parameters->s_u,
+								   influence.importance != NULL || influence.crosses != NULL ? &influence : NULL,
+								   find_stop(g, input->n), false, NULL, NULL, sequence);
+	ty_barriers_free(&barriers);
+	return status;
 }
 
 /* Typifies buildings that all count. */
@@ -400,8 +424,8 @@ typify_houses(const ty_environment *env, const ty_input *input, const ty_paramet
 {
 	size_t n = input->n;
 	group g = {.buildings = input->buildings,
-			   .importance = input->importance,
 			   .outlines = input->outlines,
+			   .importance = input->importance,
 			   .parameters = p,
 			   .area_factor = ty_area_factor(p)};
 	ty_sequence sequence = {0};
@@ -414,12 +438,13 @@ typify_houses(const ty_environment *env, const ty_input *input, const ty_paramet
 	if (status == TY_OK)
 		status = weigh_group(env, &g, n);
 	if (status == TY_OK)
-		status = collapse_group(env, &g, n, &sequence);
+		status = collapse_group(env, &g, input, &sequence);
 	if (status == TY_OK)
 		status = cut_and_describe(env, &g, &sequence, n, result);
 	ty_sequence_free(env, &sequence);
 	ty_release(env, g.order);
 	ty_release(env, g.position);
+	ty_release(env, g.keys);
 	ty_release(env, g.weight);
 	ty_release(env, g.area_bits);
 	ty_release(env, g.sorted);

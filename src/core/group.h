@@ -4,6 +4,7 @@
 #ifndef TY_GROUP_H
 #define TY_GROUP_H
 
+#include "barrier.h"
 #include "environment.h"
 #include "measure.h"
 #include "outline.h"
@@ -14,13 +15,14 @@ typedef struct ty_input
 {
 	const ty_building *buildings; /* [n] in any order */
 	size_t n;					  /* >= 1 */
+	/* [n] those with which placeholders are drawn, NULL for a building that has none; or NULL as a whole */
+	ty_outline *const *outlines;
+	const ty_barrier_lines *barriers; /* NULL: none */
 	/*
 	 * [n] >= 1, INFINITY: kept (spec 2.5); NULL: all 1. Buildings that are the same in all else, id included, should
 	 * have the same, or which of them has which is not a matter of the set alone.
 	 */
 	const double *importance;
-	/* [n] those with which placeholders are drawn, NULL for a building that has none; or NULL as a whole */
-	ty_outline *const *outlines;
 } ty_input;
 
 typedef struct ty_placeholder
@@ -34,8 +36,8 @@ typedef struct ty_placeholder
 	double ux, uy;			 /* of the representative */
 	uint32_t representative; /* index into the caller's buildings */
 	uint32_t first, count;	 /* members: ty_result.members[first .. first + count) */
-	bool kept;				 /* the representative is kept: in place, with its own area */
 	bool outlined;			 /* drawn with the representative's outline, not as a rectangle */
+	bool kept;				 /* the representative is kept: in place, with its own area */
 } ty_placeholder;
 
 typedef struct ty_result

@@ -27,8 +27,11 @@ typedef struct ty_influence
 	/* [n] by rank, the row of the building or TY_NO_ROW. NULL: no rows. An edge that leaves a row: 1 + alignment. */
 	const uint32_t *row;
 	double alignment; /* finite, >= 0 */
-	/* Whether the segment from a to b, which differ, crosses a barrier; the same for b to a. NULL: no barriers. */
-	bool (*crosses)(const ty_barriers *barriers, ty_position a, ty_position b);
+	/*
+	 * Whether the edge from a to b, which differ, crosses a barrier, or one of the two ways to where they would be merged:
+	 * that is on the edge, but for rounding. The same with a and b exchanged. NULL: no barriers.
+	 */
+	bool (*crosses)(const ty_barriers *barriers, ty_position a, ty_position b, ty_position merged);
 	const ty_barriers *barriers;
 } ty_influence;
 

@@ -28,6 +28,12 @@ typedef enum ty_shape
 	TY_AUTO		  /* its outline where it is kept or large, else a rectangle */
 } ty_shape;
 
+/* Tells barriers apart, whose lines are part of the input (ty_input); both 0: none. */
+typedef struct ty_barrier_hash
+{
+	uint64_t low, high;
+} ty_barrier_hash;
+
 /* Every value resolved: defaults applied, checks done by the caller. */
 typedef struct ty_parameters
 {
@@ -45,9 +51,11 @@ typedef struct ty_parameters
 	ty_shape shape;
 	double min_area; /* square ground units, 0: off; a smaller building is a shed */
 	/* legibility, 0: off. Millimetres on the map as options say them, ground units after ty_bring_to_ground. */
-	double min_side;  /* shortest side that is drawn */
-	double max_area;  /* nothing is enlarged beyond it */
-	double keep_area; /* buildings of this true area are kept */
+	double min_side;	  /* shortest side that is drawn */
+	double max_area;	  /* nothing is enlarged beyond it */
+	double keep_area;	  /* buildings of this true area are kept */
+	double barrier_width; /* of the symbol of the barriers */
+	ty_barrier_hash barriers;
 } ty_parameters;
 
 /* whether buildings' outlines are needed */

@@ -39,23 +39,6 @@ part_buildings(const ty_parameters *p, ty_sheds *sheds)
 	}
 }
 
-static bool
-allocate(const ty_environment *env, ty_sheds *sheds)
-{
-	const ty_input *input = sheds->input;
-	size_t houses = input->n - sheds->count;
-
-	sheds->buildings = ty_allocate_array(env, input->n, sizeof *sheds->buildings);
-	sheds->index = ty_allocate_array(env, input->n, sizeof *sheds->index);
-	if (input->importance != NULL)
-		sheds->importance = ty_allocate_array(env, houses, sizeof *sheds->importance);
-	if (input->outlines != NULL)
-		sheds->outlines = ty_allocate_array(env, houses, sizeof *sheds->outlines);
-	return sheds->buildings != NULL && sheds->index != NULL &&
-		   (input->importance == NULL || sheds->importance != NULL) &&
-		   (input->outlines == NULL || sheds->outlines != NULL);
-}
-
 ty_status
 ty_sheds_part(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_sheds *sheds)
 {
@@ -64,13 +47,20 @@ ty_sheds_part(const ty_environment *env, const ty_input *input, const ty_paramet
 		sheds->count += is_shed(input, p, i);
 	if (sheds->count == 0)
 		return TY_OK;
-	if (!allocate(env, sheds))
+	sheds->buildings = ty_allocate_array(env, input->n, sizeof *sheds->buildings);
+	sheds->index = ty_allocate_array(env, input->n, sizeof *sheds->index);
+	if (input->importance != NULL)
+		sheds->importance = ty_allocate_array(env, input->n - sheds->count, sizeof *sheds->importance);
+	if (input->outlines != NULL)
+		sheds->outlines = ty_allocate_array(env, input->n - sheds->count, sizeof(ty_outline *));
+	if (sheds->buildings == NULL || sheds->index == NULL || (input->importance != NULL && sheds->importance == NULL) ||
+		(input->outlines != NULL && sheds->outlines == NULL))
 		return TY_NO_MEMORY;
 	part_buildings(p, sheds);
-	sheds->houses = (ty_input){.buildings = sheds->buildings,
-							   .n = input->n - sheds->count,
-							   .importance = sheds->importance,
-							   .outlines = sheds->outlines};
+	sheds->houses.buildings = sheds->buildings;
+	sheds->houses.n = input->n - sheds->count;
+	sheds->houses.importance = sheds->importance;
+	sheds->houses.outlines = sheds->outlines;
 	return TY_OK;
 }
 

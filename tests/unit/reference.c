@@ -186,6 +186,22 @@ true_length(const reference *ref, uint32_t a, uint32_t b)
 	return sqrt((double) (dx * dx + dy * dy));
 }
 
+/* sum / count rounded half up; sums are not negative */
+static int32_t
+rounded_mean(wide sum, wide count)
+{
+	return (int32_t) ((2 * sum + count) / (2 * count));
+}
+
+static ty_position
+merged_place(const reference_vertex *s, const reference_vertex *t)
+{
+	if (s->kept || t->kept)
+		return s->kept ? s->at : t->at;
+	return (ty_position){rounded_mean(s->sum_x + t->sum_x, s->weight + t->weight),
+						 rounded_mean(s->sum_y + t->sum_y, s->weight + t->weight)};
+}
+
 /* INFINITY: there is no such edge */
 static double
 cost_of(const reference *ref, uint32_t a, uint32_t b)
@@ -198,7 +214,7 @@ cost_of(const reference *ref, uint32_t a, uint32_t b)
 	if (s->kept && t->kept)
 		return INFINITY;
 	if (influence != NULL && influence->crosses != NULL && !same_position(s->at, t->at) &&
-		influence->crosses(influence->barriers, s->at, t->at))
+		influence->crosses(influence->barriers, s->at, t->at, merged_place(s, t)))
 		return INFINITY;
 	cost *= s->kept ? t->importance : t->kept ? s->importance : fmax(s->importance, t->importance);
 	return s->row == t->row ? cost : cost * (1 + influence->alignment);
@@ -279,13 +295,6 @@ reference_can_go_on(const reference *ref)
 	return ref->live > 1 && (ref->influence == NULL || least_edge(ref).cost != INFINITY);
 }
 
-/* sum / count rounded half up; sums are not negative */
-static int32_t
-rounded_mean(wide sum, wide count)
-{
-	return (int32_t) ((2 * sum + count) / (2 * count));
-}
-
 reference_merge
 reference_step(reference *ref)
 {
@@ -293,8 +302,7 @@ reference_step(reference *ref)
 	reference_vertex *kept = &ref->vertex[merge.kept];
 	reference_vertex *gone = &ref->vertex[merge.gone];
 
-	if (gone->kept)
-		kept->at = gone->at;
+	kept->at = merged_place(kept, gone);
 	kept->kept |= gone->kept;
 	kept->r += gone->r;
 	kept->importance = fmax(kept->importance, gone->importance);
@@ -305,11 +313,6 @@ reference_step(reference *ref)
 		kept->row = kept->row == TY_NO_ROW ? gone->row : kept->row;
 	else if (kept->row != gone->row)
 		kept->row = TY_NO_ROW;
-	if (!kept->kept)
-	{
-		kept->at.x = rounded_mean(kept->sum_x, kept->weight);
-		kept->at.y = rounded_mean(kept->sum_y, kept->weight);
-	}
 	gone->live = false;
 	ref->live--;
 	return merge;

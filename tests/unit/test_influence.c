@@ -28,8 +28,9 @@ struct ty_barriers
 };
 
 static bool
-crosses(const ty_barriers *barriers, ty_position a, ty_position b)
+crosses(const ty_barriers *barriers, ty_position a, ty_position b, ty_position merged)
 {
+	(void) merged; /* nothing between two places on one side of a line is on the other */
 	for (size_t i = 0; i < barriers->count; i++)
 	{
 		int32_t place = barriers->place[i];
