@@ -53,9 +53,9 @@ COMMENT ON COLUMN typify_options.min_gap IS 'Smallest gap between placeholders, 
 COMMENT ON COLUMN typify_options.alignment IS
 'How much longer edges count that leave a row of buildings. Not supported yet, except 0 (off).';
 COMMENT ON COLUMN typify_options.barriers IS
-'Lines that no merge crosses. Not supported yet, except an EMPTY geometry (off). Pass options with a large geometry as a scalar sub-select.';
+'Lines that nothing is merged across, even where the count cannot be reached then: the roads, rivers, railways that are drawn at the target scale. Lines and polygons (whose rings count), multi and collections of them (points in a collection are passed over), with the SRID of the buildings; EMPTY is none. What lies exactly on a line belongs to its right side, of a horizontal one to the upper side. Pass large ones as a scalar sub-select: they are then read, kept and indexed once for all groups.';
 COMMENT ON COLUMN typify_options.barrier_width IS
-'Width of the line symbol of barriers, mm on the map. Not supported yet, except 0 (off).';
+'Width of the line symbol of barriers, mm on the map; default 0. It counts where min_gap does.';
 
 CREATE TYPE typify_placeholder AS (
 	id bigint,

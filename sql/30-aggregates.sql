@@ -227,3 +227,35 @@ CREATE AGGREGATE typify_placeholders(
 
 COMMENT ON AGGREGATE typify_placeholders(geometry, bigint, double precision, double precision, typify_options, double precision) IS
 'Typifies the buildings of a group as typify does and says who became what: an array of typify_placeholder in canonical order (element k + 1 is number k of typify_cluster, identical copies of a geometry aside: ids tell them apart here); unnest gives rows. Every building is a member of exactly one placeholder; one without size has geom NULL and raises a WARNING. NULL for a group without a usable row. id: a key of the building inside its group. scale: the denominator, at least source_scale (25000 unless set). s_u: density control in 0 .. 1; 0, the default, always merges the closest two. options: see typify_options; NULL sets none. importance: at least 1, NULL counts as 1. Edges of a placeholder count as many times longer as its highest importance says, position and mean area are weighted by importance, and the representative is the member of the highest one, then the largest. ''Infinity'' keeps a building: it stays where it is, with its own area, takes in others without moving, and is merged with no other kept one, so that the count may not be reached. A row whose geometry is NULL or EMPTY is passed over. Errors: 22023 for a geographic, a geocentric or a second SRID, a coordinate or parameter that is not finite or out of range, and parameters that vary inside a group; 22004 for a NULL scale or s_u; 0A000 for curves, TINs, polyhedral surfaces, collections and options that are not supported yet; 54000 for a result above 1 GB. Also 22004 for a NULL id and 22023 for an id that occurs twice in a group.';
+
+-- For wrappers, whose options differ from group to group while the barriers are the same for all: as an option they
+-- would be copied for every group.
+CREATE FUNCTION typify_barred_transition(internal, geometry, bigint, double precision, double precision, typify_options, geometry, double precision)
+RETURNS internal
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
+
+COMMENT ON FUNCTION typify_barred_transition(internal, geometry, bigint, double precision, double precision, typify_options, geometry, double precision) IS
+'Support of typify_barred: measures a building and adds it to its group.';
+
+CREATE AGGREGATE typify_barred(
+	geom geometry,
+	id bigint,
+	scale double precision,
+	s_u double precision,
+	options typify_options,
+	barriers geometry,
+	importance double precision)
+(
+	SFUNC = typify_barred_transition,
+	STYPE = internal,
+	SSPACE = 1024,
+	FINALFUNC = typify_placeholders_final,
+	COMBINEFUNC = typify_combine,
+	SERIALFUNC = typify_serialize,
+	DESERIALFUNC = typify_deserialize,
+	PARALLEL = SAFE
+);
+
+COMMENT ON AGGREGATE typify_barred(geometry, bigint, double precision, double precision, typify_options, geometry, double precision) IS
+'As typify_placeholders, with barriers beside the options instead of among them, so that options can differ from group to group without a copy of the barriers in each. Pass them as a scalar sub-select. Errors: as of typify_placeholders; 22023 for barriers in both places.';

@@ -216,3 +216,41 @@ BEGIN
 END $$;
 COMMENT ON FUNCTION typify_check_ids(text, regclass, name, text, regclass) IS
 'Refuses rows of a source without an id (22004), two with the same one, and links that name one building twice (22023). argument: the one that names the column. Where the table''s key says so already, nothing is read.';
+
+CREATE FUNCTION typify_barrier_source(barriers regclass, geom_column name) RETURNS text
+LANGUAGE plpgsql STABLE PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	table_name text := typify_table_name(barriers, 'barriers');
+	geom text := typify_column_name(barriers, geom_column, 'geometry', 'barriers_geom_column');
+BEGIN
+	RETURN format('(SELECT %1$s::%2$s AS geom FROM %3$s AS b WHERE %1$s IS NOT NULL AND NOT ST_IsEmpty(%1$s))', geom,
+		'geometry'::regtype, table_name);
+END $$;
+COMMENT ON FUNCTION typify_barrier_source(regclass, name) IS
+'The sub-select of the geometries of a table of barriers that are neither NULL nor EMPTY. Errors: as of typify_table_name and typify_column_name.';
+
+CREATE FUNCTION typify_barrier_lines(barriers regclass, geom_column name, options typify_options, srid integer,
+	around geometry DEFAULT NULL)
+RETURNS geometry
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	source text;
+	lines geometry := options.barriers;
+BEGIN
+	IF barriers IS NOT NULL AND NOT ST_IsEmpty(lines) THEN
+		RAISE EXCEPTION 'barriers are given as a table and among options'
+			USING ERRCODE = '22023', HINT = 'Leave one of them out.';
+	ELSIF barriers IS NOT NULL THEN
+		source := typify_barrier_source(barriers, geom_column);
+		PERFORM typify_check_same_srid('lod25', srid, 'barriers', typify_source_srid(source, barriers, geom_column, 'barriers'));
+		EXECUTE format('SELECT ST_Collect(geom) FROM %s AS b WHERE $1 IS NULL OR geom && $1', source) INTO lines USING around;
+	END IF;
+	PERFORM typify_check_same_srid('lod25', srid, 'barriers', CASE WHEN NOT ST_IsEmpty(lines) THEN ST_SRID(lines) END);
+	RETURN lines;
+END $$;
+COMMENT ON FUNCTION typify_barrier_lines(regclass, name, typify_options, integer, geometry) IS
+'The barriers of a table, collected, or those among options; NULL when there are none. srid: of the buildings. around: only rows of the table whose boxes meet it. Errors: 22023 for both, for two SRIDs and for another one than that of the buildings; others as of typify_barrier_source.';

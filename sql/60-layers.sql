@@ -53,8 +53,8 @@ COMMENT ON FUNCTION typify_layer_name(name, text) IS
 
 CREATE FUNCTION typify_layer_definition(lod25 regclass, lod200 regclass, scale double precision, s_u double precision,
 	group_by name, options typify_options, allocation text, id_column name, geom_column name,
-	lod200_id_column name, lod200_geom_column name, lod200_group_by name, links regclass,
-	importance_column name)
+	lod200_id_column name, lod200_geom_column name, lod200_group_by name, links regclass, barriers regclass,
+	barriers_geom_column name, importance_column name)
 RETURNS json
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
@@ -66,9 +66,13 @@ BEGIN
 	argument := CASE WHEN scale IS NULL THEN 'scale' WHEN s_u IS NULL THEN 's_u'
 		WHEN allocation IS NULL THEN 'allocation' WHEN id_column IS NULL THEN 'id_column'
 		WHEN geom_column IS NULL THEN 'geom_column' WHEN lod200_id_column IS NULL THEN 'lod200_id_column'
-		WHEN lod200_geom_column IS NULL THEN 'lod200_geom_column' END;
+		WHEN lod200_geom_column IS NULL THEN 'lod200_geom_column'
+		WHEN barriers_geom_column IS NULL THEN 'barriers_geom_column' END;
 	IF argument IS NOT NULL THEN
 		PERFORM typify_refuse_null(argument);
+	ELSIF ST_MemSize(options.barriers) > 100000 THEN
+		RAISE EXCEPTION 'barriers of % bytes are too large for the comment of a layer', ST_MemSize(options.barriers)
+			USING ERRCODE = '54000', HINT = 'Keep them in a table, and pass that: barriers => ''main_roads''.';
 	END IF;
 	RETURN json_build_object(
 		'typify', (SELECT extversion FROM pg_extension WHERE extname = 'typify'),
@@ -79,13 +83,15 @@ BEGIN
 		'id_column', id_column, 'geom_column', geom_column, 'lod200_id_column', lod200_id_column,
 		'lod200_geom_column', lod200_geom_column, 'lod200_group_by', lod200_group_by,
 		'links', CASE WHEN links IS NOT NULL THEN typify_table_name(links, 'links') END,
+		'barriers', CASE WHEN barriers IS NOT NULL THEN typify_table_name(barriers, 'barriers') END,
+		'barriers_geom_column', barriers_geom_column,
 		'importance_column', importance_column);
 END
 $$;
 
 COMMENT ON FUNCTION typify_layer_definition(regclass, regclass, double precision, double precision, name,
-	typify_options, text, name, name, name, name, name, regclass, name) IS
-'How a layer is derived, as its comment says it: a JSON object of the version of typify, the arguments of typify_derive by their names (relations with schema) and, among options, those that are set. Errors: 22004 for a NULL where a value is needed; those of typify_table_name.';
+	typify_options, text, name, name, name, name, name, regclass, regclass, name, name) IS
+'How a layer is derived, as its comment says it: a JSON object of the version of typify, the arguments of typify_derive by their names (relations with schema) and, among options, those that are set. Errors: 22004 for a NULL where a value is needed; 54000 for the option barriers above 100 kB; those of typify_table_name.';
 
 CREATE FUNCTION typify_layer_comment(relation oid) RETURNS jsonb
 LANGUAGE plpgsql STABLE PARALLEL SAFE
@@ -132,7 +138,8 @@ DECLARE
 	source text;
 	options text := 'NULL';
 BEGIN
-	FOREACH source IN ARRAY ARRAY[definition->>'lod25', definition->>'lod200', definition->>'links'] LOOP
+	FOREACH source IN ARRAY ARRAY[definition->>'lod25', definition->>'lod200', definition->>'links',
+			definition->>'barriers'] LOOP
 		IF source IS NOT NULL AND to_regclass(source) IS NULL THEN
 			RAISE EXCEPTION '%, from which the layer is derived, does not exist', source
 				USING ERRCODE = 'undefined_table',
@@ -145,11 +152,17 @@ BEGIN
 	END IF;
 	RETURN format('%s(lod25 => %L::regclass, lod200 => %L::regclass, scale => %L, s_u => %L, group_by => %L, box => NULL, '
 		'options => %s, allocation => %L, id_column => %L, geom_column => %L, lod200_id_column => %L, '
-		'lod200_geom_column => %L, lod200_group_by => %L, links => %L::regclass, importance_column => %L, groups => %s)',
+		'lod200_geom_column => %L, lod200_group_by => %L, links => %L::regclass, groups => %s%s, '
+		'importance_column => %L)',
 		function, definition->>'lod25', definition->>'lod200', definition->>'scale', definition->>'s_u',
 		definition->>'group_by', options, definition->>'allocation', definition->>'id_column',
 		definition->>'geom_column', definition->>'lod200_id_column', definition->>'lod200_geom_column',
-		definition->>'lod200_group_by', definition->>'links', definition->>'importance_column', groups);
+		definition->>'lod200_group_by', definition->>'links', groups,
+		CASE WHEN function = 'typify_plan' OR definition->>'barriers' IS NOT NULL THEN format(
+			', %s => %L::regclass, barriers_geom_column => %L',
+			CASE function WHEN 'typify_plan' THEN 'barriers_table' ELSE 'barriers' END,
+			definition->>'barriers', definition->>'barriers_geom_column') ELSE '' END,
+		definition->>'importance_column');
 END
 $$;
 
@@ -352,7 +365,8 @@ BEGIN
 			HINT = 'Drop it first or choose another name; typify_refresh_scale derives a layer anew.';
 	END IF;
 	IF kind = 'materialized view' THEN
-		FOREACH source IN ARRAY ARRAY[definition->>'lod25', definition->>'lod200', definition->>'links'] LOOP
+		FOREACH source IN ARRAY ARRAY[definition->>'lod25', definition->>'lod200', definition->>'links',
+				definition->>'barriers'] LOOP
 			IF (SELECT relpersistence = 't' FROM pg_class WHERE oid = source::regclass) THEN
 				RAISE EXCEPTION 'a materialized view cannot be derived from the temporary table %', source
 					USING ERRCODE = 'feature_not_supported',
@@ -393,17 +407,19 @@ CREATE FUNCTION typify_create_scale(
 	lod200_geom_column name DEFAULT 'geom',
 	lod200_group_by name DEFAULT NULL,
 	links regclass DEFAULT NULL,
+	barriers regclass DEFAULT NULL,
+	barriers_geom_column name DEFAULT 'geom',
 	importance_column name DEFAULT NULL)
 RETURNS regclass
 LANGUAGE sql
 BEGIN ATOMIC
 	SELECT typify_layer_create(current_schema(), name, kind, typify_layer_definition(lod25, lod200, scale, s_u,
 		group_by, options, allocation, id_column, geom_column, lod200_id_column, lod200_geom_column, lod200_group_by,
-		links, importance_column));
+		links, barriers, barriers_geom_column, importance_column));
 END;
 
 COMMENT ON FUNCTION typify_create_scale(text, regclass, regclass, double precision, double precision, name, text,
-	typify_options, text, name, name, name, name, name, regclass, name) IS
+	typify_options, text, name, name, name, name, name, regclass, regclass, name, name) IS
 'Creates a layer: the placeholders of typify_derive at one scale, stored, and returns it. name is written as in SQL, with or without a schema; kind is ''materialized view'' or ''table''; all other arguments are those of typify_derive. The layer has its columns, a unique index on id (the id of the representative, which does not change when buildings elsewhere do), geom of type geometry(Polygon, SRID) with a spatial index, for tables an index on grp, and a JSON comment that says how it was derived. It is dropped by DROP. Errors: 42P07 when the name is taken; 42602, 42622, 3F000 for a name that is none, is too long or has a schema that is missing; 22023 for another kind; 22004 for a NULL where a value is needed; 0A000 for a materialized view of a temporary table; those of typify_derive.';
 
 CREATE FUNCTION typify_refresh_scale(name regclass, concurrently boolean DEFAULT false) RETURNS void
@@ -493,12 +509,16 @@ DECLARE
 	state bigint;
 BEGIN
 	EXECUTE format('SELECT sum(hash_record(b)) FROM %s AS b', typify_layer_source(definition)) INTO state;
+	IF definition->>'barriers' IS NOT NULL THEN
+		EXECUTE format('SELECT $1 + coalesce(sum(hash_record(b)), 0) FROM %s AS b', typify_barrier_source(
+			(definition->>'barriers')::regclass, (definition->>'barriers_geom_column')::name)) INTO state USING state;
+	END IF;
 	RETURN coalesce(state, 0);
 END
 $$;
 
 COMMENT ON FUNCTION typify_layer_state(jsonb) IS
-'A number that tells whether the buildings from which a layer is derived are the same as before: the sum of the hashes of their ids, geometries and groups.';
+'A number that tells whether the buildings from which a layer is derived, and its barriers, are the same as before: the sum of the hashes of their ids, geometries and groups.';
 
 CREATE FUNCTION typify_layer_plan(definition jsonb) RETURNS jsonb
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
@@ -598,16 +618,18 @@ BEGIN
 		'ELSE NOT EXISTS (SELECT FROM %1$s AS done WHERE done.grp = todo.grp) END', layer)
 	INTO todo USING plan, first, last;
 	keys := typify_group_keys(todo);
-	SELECT array_agg(ROW(one->>0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, typify_options_with(base,
+	SELECT array_agg(ROW(one->>0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, typify_options_with(typify_options_without_barriers(base),
 			(one->>1)::float8, (one->>2)::float8, (one->>3)::bigint), NULL, NULL)::typify_calibration),
 		array_agg(typify_group_key(one->>0)) FILTER (WHERE (one->>4)::boolean)
 	INTO levels, hidden
 	FROM jsonb_array_elements(plan) AS one WHERE typify_group_key(one->>0) = ANY (keys);
 	IF levels IS NOT NULL THEN
 		PERFORM typify_layer_replace(layer, todo, format(
-			'typify_draw(%L, %L::float8, %L::float8, %L::typify_calibration[], %L::text[], %L::boolean)',
+			'typify_draw(%1$L, %2$L::float8, %3$L::float8, %4$L::typify_calibration[], %5$L::text[], %6$L::boolean, '
+			'typify_barrier_lines(%7$L::regclass, %8$L, %9$L::typify_options, NULL, typify_surroundings(%1$L, $1, %2$L)))',
 			typify_layer_source(definition, todo), definition->>'scale', definition->>'s_u', levels, hidden,
-			definition->>'group_by' IS NOT NULL OR definition->>'links' IS NOT NULL));
+			definition->>'group_by' IS NOT NULL OR definition->>'links' IS NOT NULL, definition->>'barriers',
+			definition->>'barriers_geom_column', base));
 	END IF;
 END
 $$;
@@ -647,6 +669,8 @@ CREATE PROCEDURE typify_build_scale(
 	lod200_group_by name DEFAULT NULL,
 	links regclass DEFAULT NULL,
 	batch integer DEFAULT 1000,
+	barriers regclass DEFAULT NULL,
+	barriers_geom_column name DEFAULT 'geom',
 	importance_column name DEFAULT NULL)
 LANGUAGE plpgsql AS
 $$
@@ -657,9 +681,10 @@ DECLARE
 	done integer := 0;
 BEGIN
 	EXECUTE format('SELECT * FROM %1$s.typify_layer_begin(current_schema(), $1, %1$s.typify_layer_definition($2, $3, $4, '
-		'$5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15), $16)', typify)
+		'$5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $16, $17, $18), $15)', typify)
 	INTO layer, number USING name, lod25, lod200, scale, s_u, group_by, options, allocation, id_column, geom_column,
-		lod200_id_column, lod200_geom_column, lod200_group_by, links, importance_column, batch;
+		lod200_id_column, lod200_geom_column, lod200_group_by, links, batch, barriers, barriers_geom_column,
+		importance_column;
 	WHILE done < number LOOP
 		EXECUTE format('SELECT %s.typify_layer_build($1, $2, $3)', typify)
 			USING layer, done + 1, least(done + batch::bigint, number)::integer;
@@ -673,5 +698,5 @@ END
 $$;
 
 COMMENT ON PROCEDURE typify_build_scale(text, regclass, regclass, double precision, double precision, name,
-	typify_options, text, name, name, name, name, name, regclass, integer, name) IS
+	typify_options, text, name, name, name, name, name, regclass, integer, regclass, name, name) IS
 'Creates the layer that typify_create_scale creates with kind => ''table'', group by group: batch groups at a time, a COMMIT after each, and a NOTICE that says how many are done. After a stop (cancelled, failed, connection lost) the table stays with what is done and "finished": false in its comment; calling with the same arguments goes on with the groups that have no rows yet. Groups, counts and calibration are found once, at the beginning, so that it takes little longer than typify_create_scale. A call that goes on keeps to them, unless a building, its group, or what LOD200 has of a group is another than then: that is said (NOTICE), and the table is begun anew. Edits while a call runs are edits like any later: name their groups to typify_refresh_groups when it is finished. CALL it outside a transaction block (2D000 inside). Other errors: as of typify_create_scale; 22023 for a batch below 1.';

@@ -4,7 +4,7 @@
 -- index is needed. Lengths are millimetres on the map and become ground units at the beginning; limits hold up to 1e-6
 -- relative. What is measured is measured by PostGIS; typify adds which pairs to look at.
 
-CREATE FUNCTION typify_measure(geom geometry,
+CREATE FUNCTION typify_measures(geom geometry,
 	OUT x double precision,
 	OUT y double precision,
 	OUT area double precision,
@@ -13,7 +13,7 @@ CREATE FUNCTION typify_measure(geom geometry,
 	OUT uy double precision)
 AS 'MODULE_PATHNAME'
 LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE COST 10;
-COMMENT ON FUNCTION typify_measure(geometry) IS
+COMMENT ON FUNCTION typify_measures(geometry) IS
 'What typify keeps of a building. x, y: as of typify_centre. area: of the shells less that of the holes. ratio: of the shorter to the longer side of the minimum-area bounding rectangle, 1 where it has no area. ux, uy: unit vector along its longer side, uy at least 0. In units of the SRID; NULL for EMPTY. Errors: as of typify_centre.';
 
 CREATE FUNCTION typify_nearest_segments(points point[], segments lseg[])
@@ -27,7 +27,7 @@ CREATE FUNCTION typify_sides(geom geometry, OUT width double precision, OUT leng
 LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
 BEGIN ATOMIC
 	SELECT ST_YMax(turned) - ST_YMin(turned), ST_XMax(turned) - ST_XMin(turned)
-	FROM typify_measure(geom) AS m, ST_Affine(geom, m.ux, m.uy, -m.uy, m.ux, 0, 0) AS turned;
+	FROM typify_measures(geom) AS m, ST_Affine(geom, m.ux, m.uy, -m.uy, m.ux, 0, 0) AS turned;
 END;
 COMMENT ON FUNCTION typify_sides(geometry) IS
 'The shorter and the longer side of the minimum-area bounding rectangle of a building, in units of the SRID. It is the exact one, which ST_OrientedEnvelope is not with every GEOS. Errors: as of typify_centre.';
@@ -41,7 +41,7 @@ SET search_path FROM CURRENT
 SET jit = off
 AS $$
 BEGIN
-	EXECUTE format('WITH measured AS MATERIALIZED (SELECT id, typify_measure(geom) AS m FROM %s AS b) '
+	EXECUTE format('WITH measured AS MATERIALIZED (SELECT id, typify_measures(geom) AS m FROM %s AS b) '
 		'SELECT coalesce(array_agg(id), ''{}''), coalesce(array_agg(point((m).x, (m).y)), ''{}''), '
 			'coalesce(array_agg(point((m).ux, (m).uy)), ''{}''), coalesce(sum((m).area), 0) FROM measured', source)
 	INTO ids, centres, directions, area;
@@ -61,7 +61,7 @@ DECLARE
 BEGIN
 	EXECUTE format($query$
 WITH row AS MATERIALIZED (
-	SELECT ST_SetSRID(ST_Force2D(geom), 0) AS geom, members, drawn, typify_measure(geom) AS m,
+	SELECT ST_SetSRID(ST_Force2D(geom), 0) AS geom, members, drawn, typify_measures(geom) AS m,
 		CASE WHEN drawn THEN count(*) FILTER (WHERE drawn) OVER (ROWS UNBOUNDED PRECEDING) END AS place
 	FROM (SELECT %1$s AS geom, %2$s::bigint[] AS members, %1$s IS NOT NULL AND NOT ST_IsEmpty(%1$s) AS drawn FROM %3$s)
 		AS b
@@ -282,7 +282,7 @@ BEGIN
 		typify_check_length(min_gap, 'min_gap', 'Give millimetres on the map.');
 	RETURN QUERY EXECUTE format($query$
 WITH measured AS MATERIALIZED (
-	SELECT grp, typify_measure(geom) AS m FROM %s AS b
+	SELECT grp, typify_measures(geom) AS m FROM %s AS b
 ), census AS (
 	SELECT grp, count(*) AS n, typify_count(count(*), $1, $2) AS asked,
 		greatest(avg((m).area) * typify_area_factor($1, $2), $3 ^ 2) AS area,

@@ -84,7 +84,7 @@ ty_join(ty_run *run, uint32_t kept, uint32_t gone, ty_position former, ty_positi
 
 		run->rest[kept] = rest_of((sum){s.x + t.x, s.y + t.y}, run->vertex[kept].size + run->vertex[gone].size, to);
 	}
-	if (__builtin_expect(run->row != NULL, 0))
+	if (__builtin_expect(run->rows != NULL, 0))
 		ty_join_rows(run, kept, gone);
 	run->vertex[kept].size += run->vertex[gone].size;
 }
@@ -398,6 +398,8 @@ prepare(ty_run *run, ty_stop stop)
 		return status;
 	/* only now is there room for what the merges take: at the peak every array counts */
 	status = reserve_sequence(run, run->n - least_vertices(stop));
+	if (status == TY_OK)
+		status = ty_influence_find_rows(run);
 	return status == TY_OK ? ty_queue_begin(run) : status;
 }
 

@@ -69,10 +69,10 @@ typedef struct ty_run
 	ty_position *rest; /* [n] sum of the represented centroids less size * position, per coordinate: exact */
 	uint64_t *keys;	   /* [n] of the positions, until there is a mesh */
 	ty_queue queue;
-	const ty_influence *influence; /* NULL: none; then the three arrays are NULL as well */
+	const ty_influence *influence; /* NULL: none; then the next three are NULL as well */
 	double *importance;			   /* [n] largest of the members'; INFINITY: kept. NULL: all 1 */
 	ty_weighted *weighted;		   /* [n] where there are importances: then it stands for rest */
-	uint32_t *row;				   /* [n] the members' row, if they have one. NULL: no rows */
+	ty_rows *rows;				   /* the influence's, once they are known. NULL: none */
 	double min_distance;		   /* the stop's */
 	uint32_t *near; /* for min_distance: merged vertices that may have a neighbour nearer than it; else NULL */
 	size_t near_count, near_capacity;
@@ -195,7 +195,9 @@ double ty_influenced_cost(const ty_run *run, uint32_t a, uint32_t b, double cost
 /* ty_merged_place and ty_join where there are importances */
 ty_position ty_weighted_place(const ty_run *run, uint32_t a, uint32_t b);
 void ty_join_weighted(ty_run *run, uint32_t kept, uint32_t gone, ty_position former, ty_position to);
-/* Which row a merged vertex belongs to. */
+/* Finds the rows in the mesh, where that is asked for. */
+ty_status ty_influence_find_rows(ty_run *run);
+/* What of a row a merged vertex stands for; before its size is known. */
 void ty_join_rows(ty_run *run, uint32_t kept, uint32_t gone);
 
 static inline bool

@@ -64,6 +64,7 @@ typedef struct group
 	int weight_exponent;   /* of weight (influence.h) */
 	uint64_t *area_bits;   /* [largest number of members] scratch of the median ... */
 	uint32_t *sorted;	   /* ... and what its sort moves along */
+	ty_rows rows;		   /* with alignment; else none */
 } group;
 
 /* INFINITY: kept, for itself or for its size */
@@ -211,7 +212,10 @@ static inline __attribute__((always_inline)) void
 fetch_ahead(const group *g, const ty_result *result, const ty_placeholder *p, size_t n)
 {
 	for (size_t i = p->first + AHEAD; i < (size_t) p->first + p->count + AHEAD && i < n; i++)
+	{
 		__builtin_prefetch(&g->buildings[result->members[i]]);
+		__builtin_prefetch(&g->buildings[result->members[i]].uy); /* mostly in the next cache line */
+	}
 }
 
 /* Fills in a placeholder whose members are known. rank: the smallest of them, where the vertex is kept. */
@@ -313,6 +317,25 @@ prepare_median(const ty_environment *env, group *g, const ty_result *result)
 	return TY_OK;
 }
 
+/* Lays out what is left of rows. */
+static ty_status
+lay_out_rows(const ty_environment *env, const group *g, const uint32_t *label, size_t n, ty_result *result)
+{
+	uint32_t *keeper = ty_allocate_array(env, result->count, sizeof *keeper);
+	ty_drawn_rows drawn = {&g->rows, g->buildings, g->order, label, keeper};
+	size_t next = 0;
+	ty_status status;
+
+	if (keeper == NULL)
+		return TY_NO_MEMORY;
+	for (size_t rank = 0; rank < n; rank++)
+		if (label[rank] == next)
+			keeper[next++] = (uint32_t) rank;
+	status = ty_rows_lay_out(env, &drawn, result->placeholders);
+	ty_release(env, keeper);
+	return status;
+}
+
 static ty_status
 cut_and_describe(const ty_environment *env, group *g, const ty_sequence *sequence, size_t n, ty_result *result)
 {
@@ -328,8 +351,26 @@ cut_and_describe(const ty_environment *env, group *g, const ty_sequence *sequenc
 		status = prepare_median(env, g, result);
 		if (status == TY_OK)
 			status = describe_all(env, g, label, n, result);
+		if (status == TY_OK && g->rows.count > 0)
+			status = lay_out_rows(env, g, label, n, result);
 	}
 	ty_release(env, label);
+	return status;
+}
+
+/* The rows of the group, found in the mesh of its collapse. */
+static ty_status
+find_rows(const void *context, const ty_mesh *mesh, ty_rows *rows)
+{
+	const group *g = context;
+	ty_trait *trait = ty_allocate_array(mesh->env, mesh->vertices, sizeof *trait);
+	ty_status status;
+
+	if (trait == NULL)
+		return TY_NO_MEMORY;
+	ty_traits(g->buildings, g->order, mesh->vertices, &g->grid, trait);
+	status = ty_rows_detect(mesh->env, mesh, trait, rows);
+	ty_release(mesh->env, trait);
 	return status;
 }
 
@@ -395,12 +436,20 @@ weigh_group(const ty_environment *env, group *g, size_t n)
 	return TY_OK;
 }
 
+/* whether anything weighs edges besides their lengths */
+static bool
+weighs(const ty_influence *influence)
+{
+	return influence->importance != NULL || influence->rows != NULL || influence->crosses != NULL;
+}
+
 /* The merge sequence, under what weighs edges besides their lengths. */
 static ty_status
 collapse_group(const ty_environment *env, group *g, const ty_input *input, ty_sequence *sequence)
 {
 	ty_barriers barriers = {.env = env};
 	ty_influence influence = {.importance = g->weight};
+	double alignment = g->parameters->alignment;
 	ty_status status = TY_OK;
 
 	if (input->barriers != NULL)
@@ -410,10 +459,17 @@ collapse_group(const ty_environment *env, group *g, const ty_input *input, ty_se
 		influence.crosses = ty_barriers_bar;
 		influence.barriers = &barriers;
 	}
+	if (alignment > 0)
+	{
+		influence.rows = &g->rows;
+		influence.alignment = alignment;
+		influence.find_rows = find_rows;
+		influence.context = g;
+	}
 	if (status == TY_OK)
 		status = ty_collapse_keyed(env, g->position, take_keys(g), input->n, g->parameters->s_u,
-								   influence.importance != NULL || influence.crosses != NULL ? &influence : NULL,
-								   find_stop(g, input->n), false, NULL, NULL, sequence);
+								   weighs(&influence) ? &influence : NULL, find_stop(g, input->n), false, NULL, NULL,
+								   sequence);
 	ty_barriers_free(&barriers);
 	return status;
 }
@@ -448,6 +504,7 @@ typify_houses(const ty_environment *env, const ty_input *input, const ty_paramet
 	ty_release(env, g.weight);
 	ty_release(env, g.area_bits);
 	ty_release(env, g.sorted);
+	ty_rows_free(env, &g.rows);
 	return status;
 }
 

@@ -49,7 +49,8 @@ typedef struct ty_parameters
 	ty_count_rule count_rule;
 	ty_area_statistic area_statistic;
 	ty_shape shape;
-	double min_area; /* square ground units, 0: off; a smaller building is a shed */
+	double min_area;  /* square ground units, 0: off; a smaller building is a shed */
+	double alignment; /* how much longer an edge counts that leaves a row of buildings; 0: rows are not looked for */
 	/* legibility, 0: off. Millimetres on the map as options say them, ground units after ty_bring_to_ground. */
 	double min_side;	  /* shortest side that is drawn */
 	double max_area;	  /* nothing is enlarged beyond it */

@@ -64,7 +64,7 @@ SELECT overlapping, narrow_gaps, short_sides, round(density_cell::numeric, 3) AS
 -- sides and measures of the exact rectangle; of an L the longer arm leads
 SELECT round(width::numeric, 6) AS width, round(length::numeric, 6) AS length, round(ratio::numeric, 6) AS ratio, round(area::numeric, 3) AS area, round(x::numeric, 3) AS x, round(y::numeric, 3) AS y, round(ux::numeric, 6) AS ux, round(uy::numeric, 6) AS uy
 FROM (VALUES (1, box_at(0, 0, 4, 2)), (2, ST_Rotate(box_at(0, 0, 4, 2), radians(30))), (3, 'POLYGON((0 0, 9 0, 9 3, 3 3, 3 6, 0 6, 0 0))'::geometry), (4, 'POINT(1 2)'), (5, 'LINESTRING(0 0, 3 4)'), (6, 'POLYGON EMPTY')) AS v (n, geom)
-LEFT JOIN LATERAL typify_measure(geom) ON true LEFT JOIN LATERAL typify_sides(geom) ON true ORDER BY n;
+LEFT JOIN LATERAL typify_measures(geom) ON true LEFT JOIN LATERAL typify_sides(geom) ON true ORDER BY n;
 
 -- barriers: one crosses the first placeholder, one is 20 m from the second, one is exactly as far from the third as it must be; each parts a building from its placeholder
 CREATE TABLE lines (geom geometry);
@@ -139,7 +139,7 @@ SELECT pg_temp.error_of('SELECT typify_quality(' || arguments || ')') FROM (VALU
 	(21, '''source'', ''good'', 50000, result_geom_column => ''shape'''), (22, '''source'', ''good'', 50000, ''where'''), (23, '''source'', ''good'', 50000, roads => ''lines'', roads_geom_column => ''line'''), (24, '''source'', ''texts'', 50000'), (25, '''source'', ''good'', 50000, options => typify_options(count => 0)')) AS v (n, arguments) ORDER BY n;
 SELECT pg_temp.error_of('SELECT * FROM typify_dense_groups(' || arguments || ')') FROM (VALUES (1, 'NULL, 50000'), (2, '''source'', NULL'), (3, '''source'', 50000, min_gap => NULL'), (4, '''source'', 50000, ''where''')) AS v (n, arguments) ORDER BY n;
 SELECT pg_temp.error_of(query) FROM (VALUES (1, 'SELECT * FROM typify_box_pairs(ARRAY[NULL::box], ''{}'')'), (2, 'SELECT * FROM typify_box_pairs(ARRAY[box(point(0, 0), point(1, ''NaN''))], ''{}'')'), (3, 'SELECT typify_nearest_segments(ARRAY[point(0, 0)], ARRAY[lseg(point(0, 0), point(''Infinity'', 0))])'),
-	(4, 'SELECT typify_measure(''SRID=4326;POINT(1 1)'')'), (5, 'SELECT typify_sides(''POINT(NaN 1)'')')) AS v (n, query) ORDER BY n;
+	(4, 'SELECT typify_measures(''SRID=4326;POINT(1 1)'')'), (5, 'SELECT typify_sides(''POINT(NaN 1)'')')) AS v (n, query) ORDER BY n;
 SELECT count(*) AS pairs FROM typify_box_pairs('{}', '{}');
 SELECT a_place, b_place FROM typify_box_pairs('{(1,1),(0,0);(9,9),(8,8)}', '{(3,3),(1,1);(8,9),(7,7);(99,99),(-99,-99)}') ORDER BY 1, 2;
 SELECT typify_nearest_segments('{"(0,0)","(9,9)"}', '{}') AS none, typify_nearest_segments('{}', '{}') AS no_points, typify_nearest_segments('{"(0,0)","(9,9)"}', '{"[(8,0),(9,1)]","[(-1,-1),(-1,9)]"}') AS nearest;
