@@ -42,7 +42,7 @@ COMMENT ON COLUMN typify_options.area_statistic IS
 COMMENT ON COLUMN typify_options.shape IS
 'rectangle (default, paper: ratio and direction of the representative), square (of equal area), footprint (the representative''s own outline, of several parts the largest, scaled to the area about its centroid; width and length are those of its minimum-area rectangle, which is drawn where the outline is no valid polygon) or auto (kept buildings, see keep_area and importance, with their own outline, simplified by ST_SimplifyPreserveTopology where detours are shorter than 0.1 mm on the map, and their own area; all others as rectangles).';
 COMMENT ON COLUMN typify_options.min_area IS
-'A building smaller than this (a shed) adds nothing to count, position or mean; it is a member of the placeholder whose vertex is nearest to its centroid, of equally near ones the first. A group of such buildings alone is one row with geom NULL. A kept building is no shed. Square units of the SRID; 0, the default, is off.';
+'A building smaller than this (a shed) adds nothing to count, position or mean; it is a member of the placeholder whose centre is nearest to its centroid, of equally near ones the first. A group of such buildings alone is one row with geom NULL. A kept building is no shed. Square units of the SRID; 0, the default, is off.';
 COMMENT ON COLUMN typify_options.min_side IS 
 'Shortest side of a placeholder, mm on the map (usual: 0.35); 0 is none. A shorter side is enlarged to it; the long side is then at least min(1 / ratio, 1.5) times as long, and of a placeholder of several members the ratio is at least 1/3. Points and lines get this size too.';
 COMMENT ON COLUMN typify_options.max_area IS 
