@@ -265,7 +265,8 @@ BEGIN
 		FROM (SELECT p, 1 AS b, 0 AS a FROM unnest(before) AS p UNION ALL SELECT p, 0, 1 FROM unnest(after) AS p) AS each
 		GROUP BY 1, 2
 	)
-	SELECT corr(a, b), regr_slope(a, b) * cardinality(before) / nullif(cardinality(after), 0), count(*) FILTER (WHERE b > 0)
+	SELECT corr(a, b), regr_slope(a, b) * cardinality(before) / nullif(cardinality(after), 0),
+		count(*) FILTER (WHERE b > 0)
 	INTO correlation, slope, settled FROM counted;
 END $$;
 COMMENT ON FUNCTION typify_quality_density(point[], point[], double precision) IS
@@ -364,8 +365,10 @@ BEGIN
 	IF scale IS NULL THEN
 		PERFORM typify_refuse_null('scale', 'Give the denominator: 75000 for a map at 1:75 000.');
 	END IF;
-	PERFORM typify_check_parameters(scale, 0, options), typify_check_length(length, argument, 'Give millimetres on the map.')
-	FROM ROWS FROM (unnest(lengths), unnest(ARRAY['min_side', 'min_gap', 'barrier_width', 'cell'])) AS l (length, argument);
+	PERFORM typify_check_parameters(scale, 0, options),
+		typify_check_length(length, argument, 'Give millimetres on the map.')
+	FROM ROWS FROM (unnest(lengths), unnest(ARRAY['min_side', 'min_gap', 'barrier_width', 'cell']))
+		AS l (length, argument);
 	IF lengths[4] = 0 THEN
 		RAISE EXCEPTION 'cell is 0, it must be above 0'
 			USING ERRCODE = '22023', HINT = 'Give the side of the cells in which density is compared, mm on the map.';
