@@ -9,12 +9,13 @@
 
 #include "mesh.h"
 
-/* What makes two buildings alike. */
+/* Where a building stands and what makes two of them alike: small, since a search looks at millions. */
 typedef struct ty_trait
 {
-	double side;   /* square root of the area, in grid cells; 0: in no row */
-	double ratio;  /* short side / long side, (0, 1] */
-	double ux, uy; /* unit vector of the longer side */
+	ty_position place;
+	float area;	  /* in square grid cells; 0: in no row */
+	float ratio;  /* short side / long side, (0, 1] */
+	float ux, uy; /* unit vector of the longer side */
 } ty_trait;
 
 /* Which members of which row a vertex of the mesh stands for: all from the first to the last place along the row. */
@@ -40,8 +41,9 @@ typedef struct ty_rows
 ty_status ty_rows_detect(const ty_environment *env, const ty_mesh *mesh, const ty_trait *trait, ty_rows *rows);
 void ty_rows_free(const ty_environment *env, ty_rows *rows);
 
-/* What the buildings are like, by rank; order[rank] = index of the building. */
-void ty_traits(const ty_building *buildings, const uint32_t *order, size_t n, const ty_grid *grid, ty_trait *trait);
+/* What the buildings that the vertices of a mesh stand for are like; order[rank] = index of the building. */
+void ty_traits(const ty_building *buildings, const uint32_t *order, const ty_mesh *mesh, const ty_grid *grid,
+			   ty_trait *trait);
 
 /*
  * The rows of a group by themselves: its canonical order, its mesh, its rows. n >= 1; order holds n entries of the

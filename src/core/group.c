@@ -71,11 +71,9 @@ typedef struct group
 static double
 importance_of(const group *g, uint32_t building)
 {
-	double keep_area = g->parameters->keep_area;
+	double importance = g->importance == NULL ? 1 : g->importance[building];
 
-	if (keep_area > 0 && g->buildings[building].area >= keep_area)
-		return INFINITY;
-	return g->importance == NULL ? 1 : g->importance[building];
+	return ty_is_kept(g->parameters, g->buildings[building].area, importance) ? INFINITY : importance;
 }
 
 /*
@@ -368,7 +366,7 @@ find_rows(const void *context, const ty_mesh *mesh, ty_rows *rows)
 
 	if (trait == NULL)
 		return TY_NO_MEMORY;
-	ty_traits(g->buildings, g->order, mesh->vertices, &g->grid, trait);
+	ty_traits(g->buildings, g->order, mesh, &g->grid, trait);
 	status = ty_rows_detect(mesh->env, mesh, trait, rows);
 	ty_release(mesh->env, trait);
 	return status;
@@ -416,7 +414,7 @@ static bool
 some_are_large(const group *g, size_t n)
 {
 	for (size_t i = 0; g->parameters->keep_area > 0 && i < n; i++)
-		if (g->buildings[i].area >= g->parameters->keep_area)
+		if (ty_is_kept(g->parameters, g->buildings[i].area, 1))
 			return true;
 	return false;
 }
