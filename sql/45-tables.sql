@@ -69,6 +69,11 @@ BEGIN
 				table_name, format_type(type, NULL)
 			USING ERRCODE = '42804', HINT = coalesce(link_hint, format(
 				'Name a key of integers with %s => ''...'', or pass a view that numbers the rows.', argument));
+	ELSIF kind = 'integers' AND type NOT IN ('int2[]'::regtype, 'int4[]'::regtype, 'int8[]'::regtype) THEN
+		RAISE EXCEPTION 'column % of % is of type %, it must be an array of smallint, integer or bigint',
+				quote_ident(column_name), table_name, format_type(type, NULL)
+			USING ERRCODE = '42804', HINT = format(
+				'Name an array of ids with %s => ''...'', or pass a view that casts to bigint[].', argument);
 	ELSIF kind = 'geometry' AND type <> 'geometry'::regtype THEN
 		RAISE EXCEPTION 'column % of % is of type %, it must be geometry', quote_ident(column_name), table_name,
 				format_type(type, NULL)
@@ -78,7 +83,7 @@ BEGIN
 	RETURN quote_ident(column_name);
 END $$;
 COMMENT ON FUNCTION typify_column_name(regclass, name, text, text) IS
-'The name of a column, quoted for SQL, after a look at its type. kind: integer (smallint, integer, bigint), geometry or any; domains over them count. argument: the argument that the hint tells to set. Errors: 22004 for NULL, 42703 for a column that is not there, 42804 for one of another type.';
+'The name of a column, quoted for SQL, after a look at its type. kind: integer (smallint, integer, bigint), integers (an array of them), geometry or any; domains over them count. argument: the argument that the hint tells to set. Errors: 22004 for NULL, 42703 for a column that is not there, 42804 for one of another type.';
 
 -- The text of a number or a word is the same where they are equal, so that an index on the column finds the groups; of
 -- other types that is not certain.

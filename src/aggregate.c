@@ -52,19 +52,18 @@ aggregate_context(FunctionCallInfo fcinfo)
 	return context;
 }
 
-static void
-check_importance(FunctionCallInfo fcinfo, int argument)
+/* of the row; 1 where it is NULL or the aggregate takes none */
+static double
+row_importance(FunctionCallInfo fcinfo, int argument)
 {
 	double importance;
 
 	if (argument == 0 || argument >= PG_NARGS() || PG_ARGISNULL(argument))
-		return;
+		return 1;
 	importance = PG_GETARG_FLOAT8(argument);
 	if (!(importance >= 1))
 		ty_refuse_value("importance", importance, "at least 1");
-	if (importance != 1)
-		ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED), errmsg("importance other than 1 is not supported yet"),
-				errhint("Leave it out, or set it to NULL."));
+	return importance;
 }
 
 /* The state of the row's group, with the row's parameters and SRID checked against it. */
@@ -106,6 +105,7 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 {
 	MemoryContext context = aggregate_context(fcinfo);
 	ty_building building;
+	double importance;
 	int32 srid;
 	ty_state *s;
 
@@ -119,8 +119,10 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 	if (layout->id != 0 && PG_ARGISNULL(layout->id))
 		ty_refuse_null("id");
 	building.id = layout->id != 0 ? PG_GETARG_INT64(layout->id) : 0;
-	check_importance(fcinfo, layout->importance);
+	importance = row_importance(fcinfo, layout->importance);
 	ty_state_add(s, &building);
+	if (unlikely(importance != 1))
+		ty_state_set_importance(s, importance);
 	if (unlikely(ty_wants_outline(&s->parameters)))
 		add_outline(s, PG_GETARG_DATUM(1));
 	PG_RETURN_POINTER(s);
@@ -137,6 +139,7 @@ state_typify(const ty_state *s, ty_result *result)
 {
 	ty_input input = {.buildings = s->buildings,
 					  .n = s->count,
+					  .importance = s->importance,
 					  .outlines = s->outlines,
 					  .barriers = ty_lines_of_barriers(s->barriers)};
 	ty_parameters parameters = s->parameters;

@@ -89,10 +89,10 @@ static const option_entry entries[OPTIONS] = {
 	 .words = {"rectangle", "square", "footprint", "auto"},
 	 .choice = "rectangle, square, footprint or auto",
 	 .built_words = 3},
-	{.name = "min_area", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
+	{.name = "min_area", .kind = NUMBER_FROM_0},
 	{.name = "min_side", .kind = NUMBER_FROM_0},
 	{.name = "max_area", .kind = NUMBER_FROM_0},
-	{.name = "keep_area", .kind = NUMBER_FROM_0, .state = UNBUILT},
+	{.name = "keep_area", .kind = NUMBER_FROM_0},
 	{.name = "min_gap", .kind = NUMBER_FROM_0, .state = UNBUILT},
 	{.name = "alignment", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
 	{.name = "barriers", .kind = LINES},
@@ -275,10 +275,12 @@ apply_options(const option_values *options, ty_parameters *p)
 	p->count_rule = (ty_count_rule) word_or(options, OPTION_COUNT_RULE, TY_RADICAL);
 	p->area_statistic = (ty_area_statistic) word_or(options, OPTION_AREA_STATISTIC, TY_MEAN);
 	p->shape = (ty_shape) word_or(options, OPTION_SHAPE, TY_RECTANGLE);
+	p->min_area = number_or(options, OPTION_MIN_AREA, 0);
 	p->min_side = number_or(options, OPTION_MIN_SIDE, 0);
 	p->max_area = number_or(options, OPTION_MAX_AREA, TY_DEFAULT_MAX_AREA_SIDES * p->min_side * p->min_side);
 	p->barrier_width = number_or(options, OPTION_BARRIER_WIDTH, 0);
 	p->barriers = options->barriers;
+	p->keep_area = number_or(options, OPTION_KEEP_AREA, 0);
 }
 
 Datum
@@ -326,8 +328,9 @@ ty_same_parameters(const ty_parameters *a, const ty_parameters *b)
 		   a->lod200_scale == b->lod200_scale && a->exponent == b->exponent && a->psi == b->psi &&
 		   a->min_distance == b->min_distance && a->count == b->count && a->law == b->law &&
 		   a->count_rule == b->count_rule && a->area_statistic == b->area_statistic && a->shape == b->shape &&
-		   a->min_side == b->min_side && a->max_area == b->max_area && a->barrier_width == b->barrier_width &&
-		   a->barriers.low == b->barriers.low && a->barriers.high == b->barriers.high;
+		   a->min_area == b->min_area && a->min_side == b->min_side && a->max_area == b->max_area &&
+		   a->keep_area == b->keep_area && a->barrier_width == b->barrier_width && a->barriers.low == b->barriers.low &&
+		   a->barriers.high == b->barriers.high;
 }
 
 /* Dropped attributes, which the shape may have behind the fields, are null. */

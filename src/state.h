@@ -12,17 +12,20 @@
 
 typedef struct ty_state
 {
-	MemoryContext context; /* of the state and its array */
-	ty_parameters parameters;
-	uint64 generation; /* of the call's parameters when they were last found equal to these */
+	/* what a row needs is in one cache line: the rows of many small groups come in any order and wait for memory */
+	size_t count, capacity;
+	ty_building *buildings; /* the first ones, or an array of their own */
+	uint64 generation;		/* of the call's parameters when they were last found equal to these */
 	int32 srid;
 	Oid geometry_type;
 	double metres_per_unit; /* of the SRID */
-	size_t count, capacity;
-	ty_building *buildings;
+	MemoryContext context;	/* of the state and its arrays */
+	ty_parameters parameters;
 	/* [capacity] what placeholders are drawn with, NULL for a building that has none; NULL while no building has one */
 	ty_outline **outlines;
+	double *importance;		  /* [capacity] of the buildings; NULL as long as all are 1 */
 	ty_barrier_set *barriers; /* of the parameters; NULL too in a state that another process sent without them */
+	ty_building first[FLEXIBLE_ARRAY_MEMBER];
 } ty_state;
 
 /* Makes an empty state in the context. */
@@ -35,6 +38,9 @@ extern void ty_state_reserve(ty_state *s, size_t more);
 /* The state's last building has an outline, or NULL: memory of the state's context, which from now on is its own. */
 extern void ty_state_give_outline(ty_state *s, ty_outline *outline);
 
+/* Sets the importance of the last building, which is 1 otherwise. */
+extern void ty_state_set_importance(ty_state *s, double importance);
+
 static inline void
 ty_state_add(ty_state *s, const ty_building *building)
 {
@@ -43,6 +49,8 @@ ty_state_add(ty_state *s, const ty_building *building)
 	s->buildings[s->count++] = *building;
 	if (unlikely(s->outlines != NULL))
 		s->outlines[s->count - 1] = NULL;
+	if (unlikely(s->importance != NULL))
+		s->importance[s->count - 1] = 1;
 }
 
 /* Raises the error of two SRIDs in a group where the state's is another. */

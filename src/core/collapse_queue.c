@@ -12,6 +12,9 @@
  * another: one that differs from the key counts no longer. (One that equals it by chance does no harm: it is
  * checked like any other.)
  *
+ * Whether a barrier is in the way of an edge is asked when its entry is the least of all. If so, the next edge of its
+ * vertex takes its place: for the ones before it there are entries of their other ends.
+ *
  * Entries of least cost are in a heap, all others wait in buckets by their keys, as bounds (collapse_bucket.c).
  */
 #include "collapse_internal.h"
@@ -26,22 +29,11 @@
 
 /* ---- cost and order ---- */
 
-/* f_a * distance (paper; symmetric form of spec 2.3) */
-static inline double
-plain_cost(const ty_run *run, uint32_t a, uint32_t b)
-{
-	const ty_vertex *p = &run->vertex[a], *q = &run->vertex[b];
-	double length = sqrt((double) ty_squared_distance(p->position, q->position));
-	double factor = run->s_u * (((double) p->size - 1) + ((double) q->size - 1)) + 1;
-
-	return factor * length;
-}
-
 /* with what influences make of it, barriers aside */
 static inline double
 edge_cost(const ty_run *run, uint32_t a, uint32_t b)
 {
-	double cost = plain_cost(run, a, b);
+	double cost = ty_plain_cost(run, a, b);
 
 	return __builtin_expect(run->influence == NULL, 1) ? cost : ty_influenced_cost(run, a, b, cost);
 }
@@ -188,7 +180,7 @@ ty_queue_partners(const ty_run *run, uint32_t a, uint32_t b)
 
 /* Inlined twice: the loop without influences is the hottest of all, and a question more in it can be measured. */
 static inline __attribute__((always_inline)) ty_edge
-least_edge(const ty_run *run, uint32_t v, bool influenced)
+least_edge(const ty_run *run, uint32_t v, const ty_edge *above)
 {
 	ty_edge least = {INFINITY, v, TY_NONE};
 	uint32_t first = run->vertex[v].edge, h = first;
@@ -201,11 +193,11 @@ least_edge(const ty_run *run, uint32_t v, bool influenced)
 
 		if (w != TY_GHOST)
 		{
-			ty_edge e = {plain_cost(run, v, w), v, w};
+			ty_edge e = {ty_plain_cost(run, v, w), v, w};
 
-			if (influenced)
+			if (above != NULL)
 				e.cost = ty_influenced_cost(run, v, w, e.cost);
-			if (ty_before(e, least) && !(influenced && ty_is_barred(run, v, w)))
+			if (ty_before(e, least) && (above == NULL || ty_before(*above, e)))
 				least = e;
 		}
 	} while ((h = ty_next_around(&run->mesh, h)) != first);
@@ -213,15 +205,33 @@ least_edge(const ty_run *run, uint32_t v, bool influenced)
 }
 
 static __attribute__((noinline)) ty_edge
-least_influenced_edge(const ty_run *run, uint32_t v)
+least_influenced_edge(const ty_run *run, uint32_t v, ty_edge above)
 {
-	return least_edge(run, v, true);
+	return least_edge(run, v, &above);
 }
 
 ty_edge
 ty_least_edge(const ty_run *run, uint32_t v)
 {
-	return run->influence == NULL ? least_edge(run, v, false) : least_influenced_edge(run, v);
+	return run->influence == NULL ? least_edge(run, v, NULL) : least_influenced_edge(run, v, (ty_edge){0, v, TY_NONE});
+}
+
+ty_edge
+ty_next_edge(const ty_run *run, uint32_t v, ty_edge above)
+{
+	return run->influence == NULL ? least_edge(run, v, NULL) : least_influenced_edge(run, v, above);
+}
+
+/* Not the key's bound alone: then an edge of a cost like its key's, once found barred, would come again and again. */
+ty_edge
+ty_waiting_floor(const ty_run *run, uint32_t v)
+{
+	ty_edge passed = run->queue.passed, entry = {0, v, TY_NONE};
+	float cost;
+
+	memcpy(&cost, &run->queue.key[v], sizeof cost);
+	entry.cost = cost;
+	return ty_before(entry, passed) ? passed : entry;
 }
 
 /* An end whose key is as large as the edge's covers it only perhaps: keys are rounded. */
@@ -283,7 +293,7 @@ fill_heap(ty_run *run)
 		{
 			ty_edge e = {edge_cost(run, a, b), a, b};
 
-			if (ty_before(e, queue->heap[a]) && !ty_is_barred(run, a, b))
+			if (ty_before(e, queue->heap[a]))
 				queue->heap[a] = e;
 		}
 	}
@@ -371,7 +381,7 @@ ty_queue_sort(ty_run *run, double low)
 	}
 }
 
-/* the half-edge of an edge, if the mesh still has it at its cost; else TY_NONE */
+/* the half-edge of an edge, if the mesh still has it at its cost and no barrier is in its way; else TY_NONE */
 static uint32_t
 half_edge_of(const ty_run *run, ty_edge e)
 {
@@ -420,7 +430,7 @@ ty_queue_least(ty_run *run, ty_edge *least, uint32_t *h)
 		else
 		{
 			drop_least(queue, is_sorted);
-			status = ty_queue_set(run, ty_least_edge(run, least->owner));
+			status = ty_queue_set(run, ty_next_edge(run, least->owner, *least));
 		}
 	}
 	least->owner = TY_NONE;

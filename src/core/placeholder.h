@@ -49,9 +49,11 @@ typedef struct ty_parameters
 	ty_count_rule count_rule;
 	ty_area_statistic area_statistic;
 	ty_shape shape;
+	double min_area; /* square ground units, 0: off; a smaller building is a shed */
 	/* legibility, 0: off. Millimetres on the map as options say them, ground units after ty_bring_to_ground. */
 	double min_side;	  /* shortest side that is drawn */
 	double max_area;	  /* nothing is enlarged beyond it */
+	double keep_area;	  /* buildings of this true area are kept */
 	double barrier_width; /* of the symbol of the barriers */
 	ty_barrier_hash barriers;
 } ty_parameters;

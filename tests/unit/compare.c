@@ -180,6 +180,26 @@ check_need_of_last(const ty_position *position, const comparison *c, double s_u,
 }
 
 const char *
+compare_unwatched(const ty_position *position, size_t n, double s_u, const ty_influence *influence, ty_stop stop,
+				  const ty_sequence *watched, const ty_position *end)
+{
+	ty_position moved[REFERENCE_MAX];
+	ty_sequence s = {0, NULL, NULL, NULL};
+	bool same;
+
+	memcpy(moved, position, n * sizeof *moved);
+	if (ty_collapse(&ty_plain_environment, moved, n, s_u, influence, stop, true, NULL, NULL, &s) != TY_OK)
+		return "the core gives an error when nobody watches";
+	same = s.count == watched->count && memcmp(moved, end, n * sizeof *moved) == 0;
+	if (same && s.count > 0)
+		same = memcmp(s.kept, watched->kept, s.count * sizeof *s.kept) == 0 &&
+			   memcmp(s.gone, watched->gone, s.count * sizeof *s.gone) == 0 &&
+			   memcmp(s.cost, watched->cost, s.count * sizeof *s.cost) == 0;
+	ty_sequence_free(&ty_plain_environment, &s);
+	return same ? NULL : "the core merges otherwise when nobody watches";
+}
+
+const char *
 compare_with_reference(const ty_position *position, size_t n, double s_u, const ty_influence *influence, ty_stop stop,
 					   reference_candidates candidates)
 {
@@ -198,6 +218,8 @@ compare_with_reference(const ty_position *position, size_t n, double s_u, const 
 	if (status != TY_OK)
 		return "the core gives an error";
 	difference = compare_sequence(&c, &sequence, stop);
+	if (difference == NULL)
+		difference = compare_unwatched(position, n, s_u, influence, stop, &sequence, moved);
 	ty_sequence_free(&ty_plain_environment, &sequence);
 	if (difference == NULL)
 		difference = compare_positions(&c.ref, moved);
