@@ -88,13 +88,13 @@ static const option_entry entries[OPTIONS] = {
 	 .kind = WORD,
 	 .words = {"rectangle", "square", "footprint", "auto"},
 	 .choice = "rectangle, square, footprint or auto",
-	 .built_words = 3},
+	 .built_words = 4},
 	{.name = "min_area", .kind = NUMBER_FROM_0},
 	{.name = "min_side", .kind = NUMBER_FROM_0},
 	{.name = "max_area", .kind = NUMBER_FROM_0},
 	{.name = "keep_area", .kind = NUMBER_FROM_0},
 	{.name = "min_gap", .kind = NUMBER_FROM_0, .state = UNBUILT},
-	{.name = "alignment", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
+	{.name = "alignment", .kind = NUMBER_FROM_0},
 	{.name = "barriers", .kind = LINES},
 	{.name = "barrier_width", .kind = NUMBER_FROM_0},
 };
@@ -276,6 +276,7 @@ apply_options(const option_values *options, ty_parameters *p)
 	p->area_statistic = (ty_area_statistic) word_or(options, OPTION_AREA_STATISTIC, TY_MEAN);
 	p->shape = (ty_shape) word_or(options, OPTION_SHAPE, TY_RECTANGLE);
 	p->min_area = number_or(options, OPTION_MIN_AREA, 0);
+	p->alignment = number_or(options, OPTION_ALIGNMENT, 0);
 	p->min_side = number_or(options, OPTION_MIN_SIDE, 0);
 	p->max_area = number_or(options, OPTION_MAX_AREA, TY_DEFAULT_MAX_AREA_SIDES * p->min_side * p->min_side);
 	p->barrier_width = number_or(options, OPTION_BARRIER_WIDTH, 0);
@@ -292,8 +293,9 @@ ty_barriers_of_options(Datum composite)
 	return options.value[OPTION_BARRIERS];
 }
 
-void
-ty_resolve_parameters(double scale, double s_u, Datum composite, bool composite_null, ty_parameters *p)
+/* All but the scale. */
+static void
+resolve_options(double s_u, Datum composite, bool composite_null, ty_parameters *p)
 {
 	option_values options;
 
@@ -307,18 +309,51 @@ ty_resolve_parameters(double scale, double s_u, Datum composite, bool composite_
 	}
 	memset(p, 0, sizeof(*p));
 	apply_options(&options, p);
+	if (!(s_u >= 0 && s_u <= 1))
+		ty_refuse_value("s_u", s_u, "between 0 and 1");
+	p->s_u = s_u;
+}
+
+void
+ty_resolve_parameters(double scale, double s_u, Datum composite, bool composite_null, ty_parameters *p)
+{
+	resolve_options(s_u, composite, composite_null, p);
 	if (!isfinite(scale) || scale < p->source_scale)
 		ty_refuse_value("scale", scale,
 						psprintf("a finite number of at least source_scale (%s)", ty_number_text(p->source_scale)));
-	if (!(s_u >= 0 && s_u <= 1))
-		ty_refuse_value("s_u", s_u, "between 0 and 1");
 	p->scale = scale;
-	p->s_u = s_u;
 	if (!isfinite(ty_area_factor(p)))
 		ereport(ERROR, errcode(ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE),
 				errmsg("the area factor of scale %s with psi %s and source_scale %s is out of range",
 					   ty_number_text(scale), ty_number_text(p->psi), ty_number_text(p->source_scale)),
 				errhint("Use a smaller scale denominator, or a psi between 0 and 1."));
+}
+
+static void
+refuse_for_hierarchy(bool given, const char *option, const char *hint)
+{
+	if (given)
+		ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				errmsg("a hierarchy holds all scales, but %s makes it depend on one", option), errhint("%s", hint));
+}
+
+void
+ty_resolve_hierarchy_parameters(double s_u, Datum composite, bool composite_null, ty_parameters *p)
+{
+	resolve_options(s_u, composite, composite_null, p);
+	p->scale = p->source_scale;
+	refuse_for_hierarchy(p->count > 0, "count", "Leave it out: typify_at takes the scale, and exponent says how many.");
+	refuse_for_hierarchy(p->min_distance > 0, "min_distance", "Leave it out, or use typify_create_scale.");
+	refuse_for_hierarchy(p->count_rule == TY_BLACK_WHITE, "count_rule => 'black_white'",
+						 "Leave it out, or use typify_create_scale; exponent says how many.");
+	refuse_for_hierarchy(p->keep_area > 0, "keep_area",
+						 "Leave it out, or give what is to be kept importance => 'Infinity'.");
+	refuse_for_hierarchy(p->min_area > 0, "min_area", "Leave it out, or pass a view without such buildings.");
+	refuse_for_hierarchy(p->alignment > 0, "alignment", "Leave it out, or use typify_create_scale.");
+	if (ty_wants_outline(p))
+		ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				errmsg("a hierarchy keeps no outlines, so that shape must be rectangle or square"),
+				errhint("Leave shape out, or use typify_create_scale."));
 }
 
 bool
@@ -328,9 +363,9 @@ ty_same_parameters(const ty_parameters *a, const ty_parameters *b)
 		   a->lod200_scale == b->lod200_scale && a->exponent == b->exponent && a->psi == b->psi &&
 		   a->min_distance == b->min_distance && a->count == b->count && a->law == b->law &&
 		   a->count_rule == b->count_rule && a->area_statistic == b->area_statistic && a->shape == b->shape &&
-		   a->min_area == b->min_area && a->min_side == b->min_side && a->max_area == b->max_area &&
-		   a->keep_area == b->keep_area && a->barrier_width == b->barrier_width && a->barriers.low == b->barriers.low &&
-		   a->barriers.high == b->barriers.high;
+		   a->min_area == b->min_area && a->alignment == b->alignment && a->min_side == b->min_side &&
+		   a->max_area == b->max_area && a->keep_area == b->keep_area && a->barrier_width == b->barrier_width &&
+		   a->barriers.low == b->barriers.low && a->barriers.high == b->barriers.high;
 }
 
 /* Dropped attributes, which the shape may have behind the fields, are null. */

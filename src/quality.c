@@ -164,7 +164,7 @@ measure_call_of(FunctionCallInfo fcinfo)
 
 		ty_srid_cache_begin(&call->srids, function->fn_oid, 0, function->fn_mcxt);
 		if (get_call_result_type(fcinfo, NULL, &call->shape) != TYPEFUNC_COMPOSITE)
-			elog(ERROR, "typify_measure does not return a row");
+			elog(ERROR, "typify_measures does not return a row");
 		call->shape = BlessTupleDesc(CreateTupleDescCopy(call->shape));
 		MemoryContextSwitchTo(before);
 		function->fn_extra = call;
@@ -172,9 +172,9 @@ measure_call_of(FunctionCallInfo fcinfo)
 	return function->fn_extra;
 }
 
-PG_FUNCTION_INFO_V1(typify_measure);
+PG_FUNCTION_INFO_V1(typify_measures);
 Datum
-typify_measure(PG_FUNCTION_ARGS)
+typify_measures(PG_FUNCTION_ARGS)
 {
 	measure_call *call = measure_call_of(fcinfo);
 	bool nulls[6] = {false};

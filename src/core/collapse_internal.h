@@ -70,12 +70,13 @@ typedef struct ty_run
 	ty_position *rest; /* [n] sum of the represented centroids less size * position, per coordinate: exact */
 	uint64_t *keys;	   /* [n] of the positions, until there is a mesh */
 	ty_queue queue;
-	const ty_influence *influence; /* NULL: none; then the three arrays are NULL as well */
+	const ty_influence *influence; /* NULL: none; then the next three are NULL as well */
 	double *importance;			   /* [n] largest of the members'; INFINITY: kept. NULL: all 1 */
 	ty_weighted *weighted;		   /* [n] where there are importances: then it stands for rest */
-	uint32_t *row;				   /* [n] the members' row, if they have one. NULL: no rows */
-	double min_distance;		   /* the stop's */
-	uint32_t *near; /* for min_distance: merged vertices that may have a neighbour nearer than it; else NULL */
+	ty_rows *rows;				   /* the influence's, once they are known. NULL: none */
+	uint8_t *in_row; /* a bit a vertex: whether it stands for members of a row. Few do, and spans are far in memory. */
+	double min_distance; /* the stop's */
+	uint32_t *near;		 /* for min_distance: merged vertices that may have a neighbour nearer than it; else NULL */
 	size_t near_count, near_capacity;
 	size_t near_first; /* those before it are no nearer than that to one another, but for the ones in near */
 	bool with_cost;
@@ -179,7 +180,7 @@ ty_position ty_merged_place(const ty_run *run, uint32_t a, uint32_t b);
 /* Adds gone to kept, which comes from `former` to their merged place. */
 void ty_join(ty_run *run, uint32_t kept, uint32_t gone, ty_position former, ty_position to);
 /* Records a merge that has been joined. */
-void ty_record(ty_run *run, uint32_t gone, double cost);
+void ty_record(ty_run *run, uint32_t gone, ty_position to, double cost);
 /* Remembers, once gone is out of the mesh, into which vertex it went (in its size, until there is room for a list). */
 void ty_retire(ty_run *run, uint32_t kept, uint32_t gone);
 /* What is left to do once a merged vertex is in the mesh. */
@@ -200,7 +201,9 @@ double ty_influenced_cost(const ty_run *run, uint32_t a, uint32_t b, double cost
 /* ty_merged_place and ty_join where there are importances */
 ty_position ty_weighted_place(const ty_run *run, uint32_t a, uint32_t b);
 void ty_join_weighted(ty_run *run, uint32_t kept, uint32_t gone, ty_position former, ty_position to);
-/* Which row a merged vertex belongs to. */
+/* Finds the rows in the mesh, where that is asked for. */
+ty_status ty_influence_find_rows(ty_run *run);
+/* What of a row a merged vertex stands for; before its size is known. */
 void ty_join_rows(ty_run *run, uint32_t kept, uint32_t gone);
 
 static inline bool

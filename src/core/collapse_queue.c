@@ -178,15 +178,48 @@ ty_queue_partners(const ty_run *run, uint32_t a, uint32_t b)
 	return run->queue.key[a] == (int32_t) (b | 0x80000000);
 }
 
-/* Inlined twice: the loop without influences is the hottest of all, and a question more in it can be measured. */
-static inline __attribute__((always_inline)) ty_edge
-least_edge(const ty_run *run, uint32_t v, const ty_edge *above)
+/*
+ * The hottest loop of all. Which edge is the least would be guessed wrong twice a star, so there is no branch: costs,
+ * which are not negative, compare as their bits do, and among edges of one vertex ty_before's order is that of the
+ * other ends.
+ */
+static ty_edge
+least_plain_edge(const ty_run *run, uint32_t v)
+{
+	uint32_t first = run->vertex[v].edge, h = first, other = TY_NONE;
+	int64_t least = INT64_MAX;
+	ty_edge e = {INFINITY, v, TY_NONE};
+
+	do
+	{
+		uint32_t w = ty_target(&run->mesh, h);
+
+		if (w != TY_GHOST)
+		{
+			double cost = ty_plain_cost(run, v, w);
+			int64_t bits;
+			bool before;
+
+			memcpy(&bits, &cost, sizeof bits);
+			before = (bits < least) | ((bits == least) & (w < other));
+			least = before ? bits : least;
+			other = before ? w : other;
+		}
+	} while ((h = ty_next_around(&run->mesh, h)) != first);
+	if (other != TY_NONE)
+	{
+		memcpy(&e.cost, &least, sizeof least);
+		e.other = other;
+	}
+	return e;
+}
+
+static __attribute__((noinline)) ty_edge
+least_influenced_edge(const ty_run *run, uint32_t v, ty_edge above)
 {
 	ty_edge least = {INFINITY, v, TY_NONE};
 	uint32_t first = run->vertex[v].edge, h = first;
 
-	if (run->mesh.live < 2)
-		return least;
 	do
 	{
 		uint32_t w = ty_target(&run->mesh, h);
@@ -195,31 +228,28 @@ least_edge(const ty_run *run, uint32_t v, const ty_edge *above)
 		{
 			ty_edge e = {ty_plain_cost(run, v, w), v, w};
 
-			if (above != NULL)
-				e.cost = ty_influenced_cost(run, v, w, e.cost);
-			if (ty_before(e, least) && (above == NULL || ty_before(*above, e)))
+			if (!ty_before(e, least)) /* then influences, which only lengthen it, need not be asked */
+				continue;
+			e.cost = ty_influenced_cost(run, v, w, e.cost);
+			if (ty_before(e, least) && ty_before(above, e))
 				least = e;
 		}
 	} while ((h = ty_next_around(&run->mesh, h)) != first);
 	return least;
 }
 
-static __attribute__((noinline)) ty_edge
-least_influenced_edge(const ty_run *run, uint32_t v, ty_edge above)
-{
-	return least_edge(run, v, &above);
-}
-
 ty_edge
 ty_least_edge(const ty_run *run, uint32_t v)
 {
-	return run->influence == NULL ? least_edge(run, v, NULL) : least_influenced_edge(run, v, (ty_edge){0, v, TY_NONE});
+	return ty_next_edge(run, v, (ty_edge){0, v, TY_NONE});
 }
 
 ty_edge
 ty_next_edge(const ty_run *run, uint32_t v, ty_edge above)
 {
-	return run->influence == NULL ? least_edge(run, v, NULL) : least_influenced_edge(run, v, above);
+	if (run->mesh.live < 2)
+		return (ty_edge){INFINITY, v, TY_NONE};
+	return run->influence == NULL ? least_plain_edge(run, v) : least_influenced_edge(run, v, above);
 }
 
 /* Not the key's bound alone: then an edge of a cost like its key's, once found barred, would come again and again. */
@@ -250,7 +280,7 @@ ty_cover_edge(void *context, uint32_t a, uint32_t b)
 
 /* ---- the first entries: every edge is covered by its end of smaller rank ---- */
 
-/* Keys are lower bounds: whether a barrier is in the way is asked when an edge's turn comes. */
+/* Keys are lower bounds: what influences make of an edge is asked when its turn comes. */
 static ty_status
 fill_buckets(ty_run *run)
 {
@@ -267,7 +297,7 @@ fill_buckets(ty_run *run)
 		if (a == TY_GHOST || b == TY_GHOST)
 			continue;
 		/* every edge comes twice; to skip one of them would be guessed wrong half the time */
-		key = key_of_cost(edge_cost(run, a, b));
+		key = key_of_cost(ty_plain_cost(run, a, b));
 		key = a < b ? key : TY_NO_KEY;
 		queue->key[a] = key < queue->key[a] ? key : queue->key[a];
 	}

@@ -9,9 +9,7 @@
 #ifndef TY_INFLUENCE_H
 #define TY_INFLUENCE_H
 
-#include "grid.h"
-
-#define TY_NO_ROW UINT32_MAX
+#include "alignment.h"
 
 /* lines that no collapse crosses; known to whoever made them */
 typedef struct ty_barriers ty_barriers;
@@ -24,9 +22,14 @@ typedef struct ty_influence
 	 * one does not move. Two kept vertices are not collapsed even where they share a place.
 	 */
 	const double *importance;
-	/* [n] by rank, the row of the building or TY_NO_ROW. NULL: no rows. An edge that leaves a row: 1 + alignment. */
-	const uint32_t *row;
-	double alignment; /* finite, >= 0 */
+	/*
+	 * Rows of buildings, whose vertices are merged along them; NULL: none. find_rows fills them once the mesh stands,
+	 * before anything else is merged than vertices at one place; NULL: they are given. Merges change their spans.
+	 */
+	ty_rows *rows;
+	double alignment; /* finite, >= 0: an edge that leaves a row counts 1 + alignment times as long */
+	ty_status (*find_rows)(const void *context, const ty_mesh *mesh, ty_rows *rows);
+	const void *context; /* of find_rows */
 	/*
 	 * Whether the edge from a to b, which differ, crosses a barrier, or one of the two ways to where they would be merged:
 	 * that is on the edge, but for rounding. The same with a and b exchanged. NULL: no barriers.

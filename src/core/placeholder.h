@@ -7,6 +7,8 @@
 #include "environment.h"
 #include "measure.h"
 
+#include <math.h>
+
 typedef enum ty_count_rule
 {
 	TY_RADICAL = 0, /* radical law with exponent (Toepfer and Pillewizer 1966) */
@@ -49,7 +51,8 @@ typedef struct ty_parameters
 	ty_count_rule count_rule;
 	ty_area_statistic area_statistic;
 	ty_shape shape;
-	double min_area; /* square ground units, 0: off; a smaller building is a shed */
+	double min_area;  /* square ground units, 0: off; a smaller building is a shed */
+	double alignment; /* how much longer an edge counts that leaves a row of buildings; 0: rows are not looked for */
 	/* legibility, 0: off. Millimetres on the map as options say them, ground units after ty_bring_to_ground. */
 	double min_side;	  /* shortest side that is drawn */
 	double max_area;	  /* nothing is enlarged beyond it */
@@ -57,6 +60,13 @@ typedef struct ty_parameters
 	double barrier_width; /* of the symbol of the barriers */
 	ty_barrier_hash barriers;
 } ty_parameters;
+
+/* Whether a building is kept (spec 2.5 and 4.3), for itself or for its size. p: in ground units. */
+static inline bool
+ty_is_kept(const ty_parameters *p, double area, double importance)
+{
+	return importance == INFINITY || (p->keep_area > 0 && area >= p->keep_area);
+}
 
 /* whether buildings' outlines are needed */
 static inline bool
@@ -99,6 +109,13 @@ double ty_psi(double mean_placeholder_area, double mean_area_lod200, double sour
  * mean_area: of the group's buildings, for the black-white rule; n stays where it is 0.
  */
 size_t ty_count(size_t n, const ty_parameters *p, double mean_area);
+
+/*
+ * The smallest scale of at least p->source_scale at which ty_count of n buildings is below count: found by the law's
+ * inverse, then among the doubles next to it. INFINITY: there is none, as for a count of 1. For the radical law, without
+ * p->count; p->scale is not looked at.
+ */
+double ty_scale_below(size_t n, size_t count, const ty_parameters *p);
 
 /* Ring, counter-clockwise and closed. ratio = width / length in (0, 1]; ux, uy: unit vector along the length. */
 void ty_rectangle(ty_point center, double area, double ratio, double ux, double uy, ty_point ring[5]);

@@ -64,7 +64,7 @@ SELECT overlapping, narrow_gaps, short_sides, round(density_cell::numeric, 3) AS
 -- sides and measures of the exact rectangle; of an L the longer arm leads
 SELECT round(width::numeric, 6) AS width, round(length::numeric, 6) AS length, round(ratio::numeric, 6) AS ratio, round(area::numeric, 3) AS area, round(x::numeric, 3) AS x, round(y::numeric, 3) AS y, round(ux::numeric, 6) AS ux, round(uy::numeric, 6) AS uy
 FROM (VALUES (1, box_at(0, 0, 4, 2)), (2, ST_Rotate(box_at(0, 0, 4, 2), radians(30))), (3, 'POLYGON((0 0, 9 0, 9 3, 3 3, 3 6, 0 6, 0 0))'::geometry), (4, 'POINT(1 2)'), (5, 'LINESTRING(0 0, 3 4)'), (6, 'POLYGON EMPTY')) AS v (n, geom)
-LEFT JOIN LATERAL typify_measure(geom) ON true LEFT JOIN LATERAL typify_sides(geom) ON true ORDER BY n;
+LEFT JOIN LATERAL typify_measures(geom) ON true LEFT JOIN LATERAL typify_sides(geom) ON true ORDER BY n;
 
 -- barriers: one crosses the first placeholder, one is 20 m from the second, one is exactly as far from the third as it must be; each parts a building from its placeholder
 CREATE TABLE lines (geom geometry);
@@ -94,6 +94,24 @@ CREATE FUNCTION placed(a integer, b integer, c integer) RETURNS TABLE (correlati
 $$ SELECT round(correlation::numeric, 4), round(slope::numeric, 4), settled FROM typify_quality_density(ARRAY(SELECT point(ST_X(ST_Centroid(geom)), 10) FROM town),
 	ARRAY(SELECT point(100, 1) FROM generate_series(1, a)) || ARRAY(SELECT point(700, 1) FROM generate_series(1, b)) || ARRAY(SELECT point(-1, 1) FROM generate_series(1, c)), 500) $$;
 SELECT a, b, c, p.* FROM (VALUES (20, 10, 0), (15, 15, 0), (10, 20, 0), (20, 0, 10), (40, 20, 0), (0, 0, 0)) AS v (a, b, c), placed(a, b, c) AS p ORDER BY 1, 2;
+
+-- rows: two of 12 houses in straight lines, and scattered sheds; four placeholders on each line, one off the line by 4 m (kept) and 6 m (not), a row left with one, and a row of which a third is not drawn
+CREATE TABLE street AS SELECT row_number() OVER () AS id, geom FROM (SELECT box_at(30 * i, 300 * j, 10) AS geom FROM generate_series(1, 12) AS i, generate_series(0, 1) AS j UNION ALL SELECT box_at(i * 7919 % 2003, 700 + i * 104729 % 1009, 3 + i % 5, 6) FROM generate_series(1, 12) AS i) AS h;
+SELECT count(DISTINCT (r).number) AS rows, count(*) AS members FROM (SELECT typify_rows(geom) OVER () AS r FROM street) AS f WHERE (r).place IS NOT NULL;
+CREATE FUNCTION on_street(off float8, thin integer, hidden integer) RETURNS TABLE (geom geometry, members bigint[]) LANGUAGE sql AS
+$$
+	SELECT CASE WHEN n > hidden THEN ST_Translate(ST_Envelope(ST_Collect(geom ORDER BY id)), 0, CASE WHEN n = 1 AND y = 0 THEN off ELSE 0 END) END, array_agg(id)
+	FROM (SELECT id, geom, round(ST_YMin(geom)) AS y, (row_number() OVER (PARTITION BY ST_YMin(geom) ORDER BY ST_XMin(geom)) - 1) / thin + 1 AS n FROM street WHERE ST_YMin(geom) < 600) AS h GROUP BY y, n
+$$;
+CREATE TABLE drawn (geom geometry, members bigint[]);
+CREATE FUNCTION rows_kept(off float8, thin integer, hidden integer) RETURNS float8 LANGUAGE plpgsql AS
+$$ BEGIN
+	TRUNCATE drawn;
+	INSERT INTO drawn SELECT * FROM on_street(off, thin, hidden);
+	RETURN (SELECT q.rows_kept FROM typify_quality('street', 'drawn', 50000) AS q);
+END $$;
+SELECT off, thin, hidden, rows_kept(off, thin, hidden) FROM (VALUES (0, 3, 0), (4, 3, 0), (6, 3, 0), (0, 6, 0), (0, 12, 0), (0, 6, 1), (0, 4, 1)) AS v (off, thin, hidden);
+SELECT q.rows_kept AS too_small_a_scale FROM typify_quality('street', 'drawn', 5000000) AS q;
 
 -- too dense: 400 houses of 100 m2 wall to wall want 200 placeholders of 250 m2 at least at 1:50 000; 20 m apart they have room, and one alone always
 CREATE TABLE blocks AS SELECT row_number() OVER () AS id, grp, geom FROM (
@@ -139,7 +157,7 @@ SELECT pg_temp.error_of('SELECT typify_quality(' || arguments || ')') FROM (VALU
 	(21, '''source'', ''good'', 50000, result_geom_column => ''shape'''), (22, '''source'', ''good'', 50000, ''where'''), (23, '''source'', ''good'', 50000, roads => ''lines'', roads_geom_column => ''line'''), (24, '''source'', ''texts'', 50000'), (25, '''source'', ''good'', 50000, options => typify_options(count => 0)')) AS v (n, arguments) ORDER BY n;
 SELECT pg_temp.error_of('SELECT * FROM typify_dense_groups(' || arguments || ')') FROM (VALUES (1, 'NULL, 50000'), (2, '''source'', NULL'), (3, '''source'', 50000, min_gap => NULL'), (4, '''source'', 50000, ''where''')) AS v (n, arguments) ORDER BY n;
 SELECT pg_temp.error_of(query) FROM (VALUES (1, 'SELECT * FROM typify_box_pairs(ARRAY[NULL::box], ''{}'')'), (2, 'SELECT * FROM typify_box_pairs(ARRAY[box(point(0, 0), point(1, ''NaN''))], ''{}'')'), (3, 'SELECT typify_nearest_segments(ARRAY[point(0, 0)], ARRAY[lseg(point(0, 0), point(''Infinity'', 0))])'),
-	(4, 'SELECT typify_measure(''SRID=4326;POINT(1 1)'')'), (5, 'SELECT typify_sides(''POINT(NaN 1)'')')) AS v (n, query) ORDER BY n;
+	(4, 'SELECT typify_measures(''SRID=4326;POINT(1 1)'')'), (5, 'SELECT typify_sides(''POINT(NaN 1)'')')) AS v (n, query) ORDER BY n;
 SELECT count(*) AS pairs FROM typify_box_pairs('{}', '{}');
 SELECT a_place, b_place FROM typify_box_pairs('{(1,1),(0,0);(9,9),(8,8)}', '{(3,3),(1,1);(8,9),(7,7);(99,99),(-99,-99)}') ORDER BY 1, 2;
 SELECT typify_nearest_segments('{"(0,0)","(9,9)"}', '{}') AS none, typify_nearest_segments('{}', '{}') AS no_points, typify_nearest_segments('{"(0,0)","(9,9)"}', '{"[(8,0),(9,1)]","[(-1,-1),(-1,9)]"}') AS nearest;

@@ -144,6 +144,34 @@ reference_delaunay(const ty_position *at, const uint32_t *list, size_t m, refere
 }
 
 void
+reset_rows(ty_rows *rows, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		rows->span[i] = (ty_span){TY_NONE, 0, 0};
+	for (uint32_t r = 0; r < rows->count; r++)
+		for (uint32_t i = rows->first[r]; i < rows->first[r + 1]; i++)
+			rows->span[rows->member[i]] = (ty_span){r, i - rows->first[r], i - rows->first[r]};
+}
+
+void
+give_rows(given_rows *given, const uint32_t *row, size_t n, uint32_t count, double spacing)
+{
+	uint32_t members = 0;
+
+	given->rows = (ty_rows){count, given->first, given->member, given->spacing, given->span};
+	for (uint32_t r = 0; r < count; r++)
+	{
+		given->first[r] = members;
+		given->spacing[r] = spacing;
+		for (uint32_t i = 0; i < n; i++)
+			if (row[i] == r)
+				given->member[members++] = i;
+	}
+	given->first[count] = members;
+	reset_rows(&given->rows, n);
+}
+
+void
 reference_begin(reference *ref, const ty_position *position, size_t n, double s_u, const ty_influence *influence,
 				reference_candidates candidates)
 {
@@ -151,6 +179,8 @@ reference_begin(reference *ref, const ty_position *position, size_t n, double s_
 	ref->s_u = s_u;
 	ref->influence = influence;
 	ref->candidates = candidates;
+	if (influence != NULL && influence->rows != NULL)
+		reset_rows(influence->rows, n);
 	for (size_t i = 0; i < n; i++)
 	{
 		bool weighted = influence != NULL && influence->importance != NULL;
@@ -158,16 +188,16 @@ reference_begin(reference *ref, const ty_position *position, size_t n, double s_
 		bool kept = isinf(importance) != 0;
 		wide weight = kept ? 0 : (wide) (importance * REFERENCE_UNIT);
 
-		ref->vertex[i] =
-			(reference_vertex){.live = true,
-							   .r = 1,
-							   .kept = kept,
-							   .importance = importance,
-							   .weight = weight,
-							   .sum_x = weight * position[i].x,
-							   .sum_y = weight * position[i].y,
-							   .row = influence != NULL && influence->row != NULL ? influence->row[i] : TY_NO_ROW,
-							   .at = position[i]};
+		ref->vertex[i] = (reference_vertex){
+			.live = true,
+			.r = 1,
+			.kept = kept,
+			.importance = importance,
+			.weight = weight,
+			.sum_x = weight * position[i].x,
+			.sum_y = weight * position[i].y,
+			.span = influence != NULL && influence->rows != NULL ? influence->rows->span[i] : (ty_span){TY_NONE, 0, 0},
+			.at = position[i]};
 	}
 }
 
@@ -217,7 +247,11 @@ cost_of(const reference *ref, uint32_t a, uint32_t b)
 		influence->crosses(influence->barriers, s->at, t->at, merged_place(s, t)))
 		return INFINITY;
 	cost *= s->kept ? t->importance : t->kept ? s->importance : fmax(s->importance, t->importance);
-	return s->row == t->row ? cost : cost * (1 + influence->alignment);
+	if (influence != NULL && influence->rows != NULL && true_length(ref, a, b) > 0)
+		cost *= ty_aligned_length(influence->rows, s->span, t->span, (uint64_t) (s->r + t->r), true_length(ref, a, b),
+								  influence->alignment) /
+				true_length(ref, a, b);
+	return cost;
 }
 
 /*
@@ -309,10 +343,7 @@ reference_step(reference *ref)
 	kept->weight += gone->weight;
 	kept->sum_x += gone->sum_x;
 	kept->sum_y += gone->sum_y;
-	if (kept->row == TY_NO_ROW || gone->row == TY_NO_ROW)
-		kept->row = kept->row == TY_NO_ROW ? gone->row : kept->row;
-	else if (kept->row != gone->row)
-		kept->row = TY_NO_ROW;
+	kept->span = ty_joined_span(kept->span, gone->span, (uint64_t) kept->r);
 	gone->live = false;
 	ref->live--;
 	return merge;
