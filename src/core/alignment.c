@@ -27,6 +27,7 @@
  * Liechtenstein and Leipzig. Lengths are multiples of the smaller building's side, the square root of its area.
  */
 #define REACH 4.5			   /* neighbours' centres are no farther apart: houses in gardens have 2 to 3.5 */
+#define BESIDE 2.25			   /* a small building that is looked past is no farther: half the reach */
 #define SIZE_RATIO 2.0		   /* of areas of neighbours */
 #define ORIENTATION 0.939	   /* cosine: 20 degrees between neighbours */
 #define SQUARE_RATIO 0.5	   /* of two ratios multiplied: from here on the longer side may be either */
@@ -47,6 +48,8 @@
 #define SPACING_WEIGHT 0.4 /* times ratio - 1 */
 #define SIZE_WEIGHT 0.2	   /* times ratio - 1 */
 #define AXIS_WEIGHT 1.0	   /* times sine */
+
+#define AHEAD 16 /* buildings and stars that are fetched before they are needed */
 
 typedef struct neighbour
 {
@@ -80,6 +83,7 @@ typedef struct search
 	const ty_environment *env;
 	const ty_mesh *mesh;
 	const ty_trait *trait;
+	ty_parting parting;
 	links *choice; /* [n] the neighbours of the triple that each building chose */
 	links *link;   /* [n] */
 	growth *growths;
@@ -94,22 +98,20 @@ ratio_above_1(double a, double b)
 	return a < b ? b / a : a / b;
 }
 
+static bool
+same_size(const ty_trait *a, const ty_trait *b)
+{
+	return (double) a->area <= SIZE_RATIO * b->area && (double) b->area <= SIZE_RATIO * a->area;
+}
+
 /* Rectangles that are nearly squares may be turned by a right angle. */
 static bool
 same_orientation(const ty_trait *a, const ty_trait *b)
 {
-	double cosine = fabs(a->ux * b->ux + a->uy * b->uy);
-	double sine = fabs(a->ux * b->uy - a->uy * b->ux);
+	double cosine = fabs((double) a->ux * b->ux + (double) a->uy * b->uy);
+	double sine = fabs((double) a->ux * b->uy - (double) a->uy * b->ux);
 
-	return cosine >= ORIENTATION || (a->ratio * b->ratio >= SQUARE_RATIO && sine >= ORIENTATION);
-}
-
-static bool
-same_size(const ty_trait *a, const ty_trait *b)
-{
-	double size = ratio_above_1(a->side, b->side);
-
-	return size * size <= SIZE_RATIO;
+	return cosine >= ORIENTATION || (sine >= ORIENTATION && (double) a->ratio * b->ratio >= SQUARE_RATIO);
 }
 
 /* ---- neighbours ---- */
@@ -141,66 +143,65 @@ insert_neighbour(neighbourhood *near, neighbour n)
 	near->list[at] = n;
 }
 
-/* Adds w to v's neighbours if it is near and alike; false where it is not. */
-static bool
-consider(const search *s, uint32_t v, uint32_t w, neighbourhood *near)
+/* Adds w, which is as large as v, to v's neighbours if it is near and turned as v is. */
+static void
+consider(const search *s, const ty_trait *of, uint32_t w, neighbourhood *near)
 {
-	ty_position p = s->mesh->vertex[v].position, q = s->mesh->vertex[w].position;
-	const ty_trait *a = &s->trait[v], *b = &s->trait[w];
-	neighbour n = {.x = (double) q.x - p.x, .y = (double) q.y - p.y, .rank = w};
+	const ty_trait *t = &s->trait[w];
+	neighbour n = {.x = (double) t->place.x - of->place.x, .y = (double) t->place.y - of->place.y, .rank = w};
+	double squared = n.x * n.x + n.y * n.y;
 
-	if (!(b->side > 0) || !same_size(a, b) || !same_orientation(a, b))
-		return false;
-	n.length = sqrt(n.x * n.x + n.y * n.y);
-	if (n.length <= REACH * fmin(a->side, b->side))
-		insert_neighbour(near, n);
-	return true;
+	if (squared > REACH * REACH * fmin(of->area, t->area) || !same_orientation(of, t))
+		return;
+	n.length = sqrt(squared);
+	insert_neighbour(near, n);
 }
 
+/* whether a building is smaller and so near that the next house of a row may stand behind it */
 static bool
-has_many_neighbours(const ty_mesh *mesh, uint32_t v)
+is_beside(const ty_trait *of, const ty_trait *small)
 {
-	uint32_t first = mesh->vertex[v].edge, h = first;
-	int count = 0;
+	double x = (double) small->place.x - of->place.x, y = (double) small->place.y - of->place.y;
 
-	do
-		if (++count > MANY_NEIGHBOURS)
-			return true;
-	while ((h = ty_next_around(mesh, h)) != first);
-	return false;
+	return small->area < of->area && x * x + y * y <= BESIDE * BESIDE * of->area;
 }
 
 /* Adds what is beside the small building `small` to v's neighbours. */
 static void
 look_past(const search *s, uint32_t v, uint32_t small, neighbourhood *near)
 {
-	uint32_t first = s->mesh->vertex[small].edge, h = first;
+	uint32_t first = s->mesh->vertex[small].edge, h = first, count = 0;
+	uint32_t beside[MANY_NEIGHBOURS];
 
-	if (has_many_neighbours(s->mesh, small))
-		return;
 	do
 	{
-		uint32_t w = ty_target(s->mesh, h);
-
-		if (w != TY_GHOST && w != v)
-			consider(s, v, w, near);
+		if (count == MANY_NEIGHBOURS)
+			return;
+		beside[count++] = ty_target(s->mesh, h);
 	} while ((h = ty_next_around(s->mesh, h)) != first);
+	for (uint32_t i = 0; i < count; i++)
+		if (beside[i] != TY_GHOST && beside[i] != v && same_size(&s->trait[v], &s->trait[beside[i]]))
+			consider(s, &s->trait[v], beside[i], near);
 }
 
 static void
 find_neighbours(const search *s, uint32_t v, neighbourhood *near)
 {
 	uint32_t first = s->mesh->vertex[v].edge, h = first;
+	const ty_trait *of = &s->trait[v];
 
 	near->count = 0;
-	if (first == TY_NONE || !(s->trait[v].side > 0) || s->mesh->live < 3)
+	if (first == TY_NONE || !(of->area > 0) || s->mesh->live < 3)
 		return;
 	do
 	{
 		uint32_t w = ty_target(s->mesh, h);
 
-		if (w != TY_GHOST && !consider(s, v, w, near) &&
-			s->trait[w].side * s->trait[w].side * SIZE_RATIO < s->trait[v].side * s->trait[v].side)
+		if (w == TY_GHOST)
+			continue;
+		if (same_size(of, &s->trait[w]))
+			consider(s, of, w, near);
+		else if (is_beside(of, &s->trait[w]))
 			look_past(s, v, w, near);
 	} while ((h = ty_next_around(s->mesh, h)) != first);
 }
@@ -212,18 +213,24 @@ static double
 triple_cost(const search *s, uint32_t v, const neighbour *a, const neighbour *b)
 {
 	const ty_trait *t = &s->trait[v], *ta = &s->trait[a->rank], *tb = &s->trait[b->rank];
-	double turn = 1 + (a->x * b->x + a->y * b->y) / (a->length * b->length); /* 1 - cosine */
-	double spacing = ratio_above_1(a->length, b->length);
-	double x = b->x - a->x, y = b->y - a->y, length = sqrt(x * x + y * y);
-	double off_axis = fmin(fabs(x * t->ux + y * t->uy), fabs(x * t->uy - y * t->ux)) / length;
-	double size = ratio_above_1(ta->side, t->side) * ratio_above_1(tb->side, t->side);
+	double along = a->x * b->x + a->y * b->y, lengths = a->length * b->length;
+	double x, y, off_axis, length, turn, spacing, size, most = SPACING_DIFFERENCE * sqrt(t->area);
 
-	if (turn > 1 - STRAIGHT || !(off_axis <= OFF_AXIS) || !same_size(ta, tb))
+	if (!(along <= -STRAIGHT * lengths) || !same_size(ta, tb))
 		return INFINITY;
-	if (spacing > SPACING_RATIO && fabs(a->length - b->length) > SPACING_DIFFERENCE * t->side)
+	spacing = ratio_above_1(a->length, b->length);
+	if (spacing > SPACING_RATIO && fabs(a->length - b->length) > most)
 		return INFINITY;
+	x = b->x - a->x;
+	y = b->y - a->y;
+	length = sqrt(x * x + y * y);
+	off_axis = fmin(fabs(x * t->ux + y * t->uy), fabs(x * t->uy - y * t->ux)) / length;
+	if (!(off_axis <= OFF_AXIS))
+		return INFINITY;
+	turn = 1 + along / lengths; /* 1 - cosine */
+	size = ratio_above_1(ta->area, t->area) * ratio_above_1(tb->area, t->area);
 	return (a->length + b->length) * (1 + TURN_WEIGHT * turn + SPACING_WEIGHT * (spacing - 1) +
-									  SIZE_WEIGHT * (size * size - 1) + AXIS_WEIGHT * off_axis);
+									  SIZE_WEIGHT * (size - 1) + AXIS_WEIGHT * off_axis);
 }
 
 /* Every building's choice. Neighbours come by length and rank, so that of equal triples the first is kept. */
@@ -237,6 +244,8 @@ choose_triples(search *s)
 
 		if (ty_interrupted_at(s->env, v))
 			return TY_INTERRUPTED;
+		if (v + AHEAD < s->mesh->vertices && s->mesh->vertex[v + AHEAD].edge != TY_NONE)
+			__builtin_prefetch(&s->mesh->triangles[ty_triangle_of(s->mesh->vertex[v + AHEAD].edge)]);
 		s->choice[v] = s->link[v] = (links){{TY_NONE, TY_NONE}};
 		find_neighbours(s, v, &near);
 		for (size_t i = 1; i < near.count; i++)
@@ -275,6 +284,13 @@ join(search *s, uint32_t v, uint32_t w)
 	add_link(s, w, v);
 }
 
+/* Asked of links only, which are few. */
+static bool
+is_parted(const search *s, uint32_t v, uint32_t w)
+{
+	return s->parting.parts != NULL && s->parting.parts(s->parting.context, s->trait[v].place, s->trait[w].place);
+}
+
 static void
 link_mutual(search *s)
 {
@@ -283,7 +299,7 @@ link_mutual(search *s)
 		{
 			uint32_t w = s->choice[v].to[i];
 
-			if (w != TY_NONE && holds(s->choice[w], v))
+			if (w != TY_NONE && holds(s->choice[w], v) && !is_parted(s, v, w))
 				add_link(s, v, w);
 		}
 }
@@ -291,7 +307,7 @@ link_mutual(search *s)
 static neighbour
 neighbour_of(const search *s, uint32_t v, uint32_t w)
 {
-	ty_position p = s->mesh->vertex[v].position, q = s->mesh->vertex[w].position;
+	ty_position p = s->trait[v].place, q = s->trait[w].place;
 	neighbour n = {.x = (double) q.x - p.x, .y = (double) q.y - p.y, .rank = w};
 
 	n.length = sqrt(n.x * n.x + n.y * n.y);
@@ -311,8 +327,8 @@ fits(const search *s, uint32_t v, uint32_t w)
 	neighbour to_v, on;
 
 	if (s->link[w].to[0] == TY_NONE)
-		return true;
-	if (s->link[w].to[1] != TY_NONE || s->link[w].to[0] == v)
+		return !is_parted(s, v, w);
+	if (s->link[w].to[1] != TY_NONE || s->link[w].to[0] == v || is_parted(s, v, w))
 		return false;
 	to_v = neighbour_of(s, w, v);
 	on = neighbour_of(s, w, s->link[w].to[0]);
@@ -362,10 +378,10 @@ is_regular_three(const search *s, const uint32_t *member)
 {
 	const ty_trait *a = &s->trait[member[0]], *b = &s->trait[member[1]], *c = &s->trait[member[2]];
 	neighbour p = neighbour_of(s, member[1], member[0]), q = neighbour_of(s, member[1], member[2]);
-	double least = fmin(fmin(a->side, b->side), c->side), most = fmax(fmax(a->side, b->side), c->side);
+	double least = fmin(fmin(a->area, b->area), c->area), most = fmax(fmax(a->area, b->area), c->area);
 
-	return 1 + (p.x * q.x + p.y * q.y) / (p.length * q.length) <= 1 - THREE_STRAIGHT &&
-		   ratio_above_1(p.length, q.length) <= THREE_SPACING && most * most <= THREE_SIZE * least * least;
+	return p.x * q.x + p.y * q.y <= -THREE_STRAIGHT * p.length * q.length &&
+		   ratio_above_1(p.length, q.length) <= THREE_SPACING && most <= THREE_SIZE * least;
 }
 
 /* whether v is the middle of a new chain of three, or lengthens or joins chains */
@@ -565,9 +581,9 @@ allocate_rows(const ty_environment *env, size_t n, ty_rows *rows)
 }
 
 ty_status
-ty_rows_detect(const ty_environment *env, const ty_mesh *mesh, const ty_trait *trait, ty_rows *rows)
+ty_rows_detect(const ty_environment *env, const ty_mesh *mesh, const ty_trait *trait, ty_parting parting, ty_rows *rows)
 {
-	search s = {.env = env, .mesh = mesh, .trait = trait};
+	search s = {.env = env, .mesh = mesh, .trait = trait, .parting = parting};
 	ty_status status = allocate_rows(env, mesh->vertices, rows);
 
 	s.choice = ty_allocate_array(env, mesh->vertices, sizeof *s.choice);
@@ -602,18 +618,21 @@ ty_rows_free(const ty_environment *env, ty_rows *rows)
 
 /* ---- a group by itself ---- */
 
-#define AHEAD 16 /* buildings fetched before they are needed: they lie in any order */
-
 void
-ty_traits(const ty_building *buildings, const uint32_t *order, size_t n, const ty_grid *grid, ty_trait *trait)
+ty_traits(const ty_building *buildings, const uint32_t *order, const ty_mesh *mesh, const ty_grid *grid,
+		  ty_trait *trait)
 {
-	for (size_t rank = 0; rank < n; rank++)
+	for (size_t rank = 0; rank < mesh->vertices; rank++)
 	{
 		const ty_building *b = &buildings[order[rank]];
 
-		if (rank + AHEAD < n)
+		if (rank + AHEAD < mesh->vertices)
 			__builtin_prefetch(&buildings[order[rank + AHEAD]]);
-		trait[rank] = (ty_trait){sqrt(b->area) / grid->cell, b->ratio, b->ux, b->uy};
+		trait[rank] = (ty_trait){.place = mesh->vertex[rank].position,
+								 .area = (float) (b->area / grid->cell / grid->cell),
+								 .ratio = (float) b->ratio,
+								 .ux = (float) b->ux,
+								 .uy = (float) b->uy};
 	}
 }
 
@@ -686,8 +705,8 @@ ty_rows_of_group(const ty_environment *env, const ty_building *buildings, size_t
 		status = mesh_ground(env, n, &g);
 	if (status == TY_OK)
 	{
-		ty_traits(buildings, order, n, &grid, g.trait);
-		status = ty_rows_detect(env, &g.mesh, g.trait, rows);
+		ty_traits(buildings, order, &g.mesh, &grid, g.trait);
+		status = ty_rows_detect(env, &g.mesh, g.trait, (ty_parting){0}, rows);
 	}
 	free_ground(env, &g);
 	return status;

@@ -73,8 +73,9 @@ typedef struct ty_run
 	double *importance;			   /* [n] largest of the members'; INFINITY: kept. NULL: all 1 */
 	ty_weighted *weighted;		   /* [n] where there are importances: then it stands for rest */
 	ty_rows *rows;				   /* the influence's, once they are known. NULL: none */
-	double min_distance;		   /* the stop's */
-	uint32_t *near; /* for min_distance: merged vertices that may have a neighbour nearer than it; else NULL */
+	uint8_t *in_row; /* a bit a vertex: whether it stands for members of a row. Few do, and spans are far in memory. */
+	double min_distance; /* the stop's */
+	uint32_t *near;		 /* for min_distance: merged vertices that may have a neighbour nearer than it; else NULL */
 	size_t near_count, near_capacity;
 	size_t near_first; /* those before it are no nearer than that to one another, but for the ones in near */
 	bool with_cost;

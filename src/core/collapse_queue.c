@@ -223,7 +223,11 @@ least_influenced_edge(const ty_run *run, uint32_t v)
 
 		if (w != TY_GHOST)
 		{
-			ty_edge e = {edge_cost(run, v, w), v, w};
+			ty_edge e = {ty_plain_cost(run, v, w), v, w};
+
+			if (!ty_before(e, least)) /* then influences, which only lengthen it, need not be asked */
+				continue;
+			e.cost = ty_influenced_cost(run, v, w, e.cost);
 
 			if (ty_before(e, least) && !ty_is_barred(run, v, w))
 				least = e;
@@ -256,7 +260,7 @@ ty_cover_edge(void *context, uint32_t a, uint32_t b)
 
 /* ---- the first entries: every edge is covered by its end of smaller rank ---- */
 
-/* Keys are lower bounds: whether a barrier is in the way is asked when an edge's turn comes. */
+/* Keys are lower bounds: what influences make of an edge is asked when its turn comes. */
 static ty_status
 fill_buckets(ty_run *run)
 {
@@ -273,7 +277,7 @@ fill_buckets(ty_run *run)
 		if (a == TY_GHOST || b == TY_GHOST)
 			continue;
 		/* every edge comes twice; to skip one of them would be guessed wrong half the time */
-		key = key_of_cost(edge_cost(run, a, b));
+		key = key_of_cost(ty_plain_cost(run, a, b));
 		key = a < b ? key : TY_NO_KEY;
 		queue->key[a] = key < queue->key[a] ? key : queue->key[a];
 	}

@@ -21,11 +21,9 @@ sum_areas(const ty_building *buildings, const uint32_t *members, size_t n, ty_ar
 double
 ty_group_importance(const group *g, uint32_t building)
 {
-	double keep_area = g->parameters->keep_area;
+	double importance = g->importance == NULL ? 1 : g->importance[building];
 
-	if (keep_area > 0 && g->buildings[building].area >= keep_area)
-		return INFINITY;
-	return g->importance == NULL ? 1 : g->importance[building];
+	return ty_is_kept(g->parameters, g->buildings[building].area, importance) ? INFINITY : importance;
 }
 
 static double
@@ -265,7 +263,7 @@ static ty_status
 lay_out_rows(const ty_environment *env, const group *g, const uint32_t *label, size_t n, ty_result *result)
 {
 	uint32_t *keeper = ty_allocate_array(env, result->count, sizeof *keeper);
-	ty_drawn_rows drawn = {&g->rows, g->buildings, g->order, label, keeper};
+	ty_drawn_rows drawn = {&g->rows, g->buildings, g->order, label, keeper, g->barriers};
 	size_t next = 0;
 	ty_status status;
 
@@ -301,18 +299,33 @@ cut_and_describe(const ty_environment *env, group *g, const ty_sequence *sequenc
 	return status;
 }
 
+/* what the rows of a group are found with */
+typedef struct row_search
+{
+	const group *group;
+	const ty_barriers *barriers;
+} row_search;
+
+static bool
+barrier_parts(const void *context, ty_position a, ty_position b)
+{
+	return ty_barriers_cross(context, a, b);
+}
+
 /* The rows of the group, found in the mesh of its collapse. */
 static ty_status
 find_rows(const void *context, const ty_mesh *mesh, ty_rows *rows)
 {
-	const group *g = context;
+	const row_search *search = context;
+	const group *g = search->group;
+	ty_parting parting = {search->barriers->count > 0 ? barrier_parts : NULL, search->barriers};
 	ty_trait *trait = ty_allocate_array(mesh->env, mesh->vertices, sizeof *trait);
 	ty_status status;
 
 	if (trait == NULL)
 		return TY_NO_MEMORY;
-	ty_traits(g->buildings, g->order, mesh->vertices, &g->grid, trait);
-	status = ty_rows_detect(mesh->env, mesh, trait, rows);
+	ty_traits(g->buildings, g->order, mesh, &g->grid, trait);
+	status = ty_rows_detect(mesh->env, mesh, trait, parting, rows);
 	ty_release(mesh->env, trait);
 	return status;
 }
@@ -359,7 +372,7 @@ static bool
 some_are_large(const group *g, size_t n)
 {
 	for (size_t i = 0; g->parameters->keep_area > 0 && i < n; i++)
-		if (g->buildings[i].area >= g->parameters->keep_area)
+		if (ty_is_kept(g->parameters, g->buildings[i].area, 1))
 			return true;
 	return false;
 }
@@ -394,6 +407,7 @@ ty_group_begin(const ty_environment *env, const ty_input *input, const ty_parame
 	*g = (group){.buildings = input->buildings,
 				 .outlines = input->outlines,
 				 .importance = input->importance,
+				 .barriers = input->barriers,
 				 .parameters = p,
 				 .area_factor = ty_area_factor(p)};
 	status = ty_grid_fit(g->buildings, input->n, &g->grid);
@@ -410,6 +424,7 @@ ty_group_collapse(const ty_environment *env, group *g, const ty_input *input, ty
 {
 	ty_barriers barriers = {.env = env};
 	ty_influence influence = {.importance = g->weight};
+	row_search search = {g, &barriers};
 	double alignment = g->parameters->alignment;
 	ty_status status = TY_OK;
 
@@ -425,7 +440,7 @@ ty_group_collapse(const ty_environment *env, group *g, const ty_input *input, ty
 		influence.rows = &g->rows;
 		influence.alignment = alignment;
 		influence.find_rows = find_rows;
-		influence.context = g;
+		influence.context = &search;
 	}
 	if (status == TY_OK)
 		status = ty_collapse_keyed(env, g->position, take_keys(g), input->n, g->parameters->s_u,

@@ -15,7 +15,8 @@ typedef struct ty_group
 	const ty_building *buildings;
 	ty_outline *const *outlines;
 	const ty_parameters *parameters;
-	const double *importance; /* by building, or NULL */
+	const double *importance;		  /* by building, or NULL */
+	const ty_barrier_lines *barriers; /* or NULL */
 	ty_grid grid;
 	ty_area_scale scale;
 	double area_factor;

@@ -188,6 +188,8 @@ compare_unwatched(const ty_position *position, size_t n, double s_u, const ty_in
 	bool same;
 
 	memcpy(moved, position, n * sizeof *moved);
+	if (influence != NULL && influence->rows != NULL)
+		reset_rows(influence->rows, n);
 	if (ty_collapse(&ty_plain_environment, moved, n, s_u, influence, stop, true, NULL, NULL, &s) != TY_OK)
 		return "the core gives an error when nobody watches";
 	same = s.count == watched->count && memcmp(moved, end, n * sizeof *moved) == 0;

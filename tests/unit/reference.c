@@ -143,7 +143,7 @@ reference_delaunay(const ty_position *at, const uint32_t *list, size_t m, refere
 				join_triangle_if_empty(at, list, m, list[i], list[k], list[l], edge);
 }
 
-static void
+void
 reset_rows(ty_rows *rows, size_t n)
 {
 	for (size_t i = 0; i < n; i++)

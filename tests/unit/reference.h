@@ -59,6 +59,9 @@ typedef struct given_rows
 /* Makes the rows 0 .. count - 1 of the vertices whose row that is, by rank, at the given spacing. TY_NONE: in no row. */
 void give_rows(given_rows *given, const uint32_t *row, size_t n, uint32_t count, double spacing);
 
+/* As they were given, whatever merges have made of them. */
+void reset_rows(ty_rows *rows, size_t n);
+
 /* The rows of the influence are as they were given, whatever merges have made of them. */
 void reference_begin(reference *ref, const ty_position *position, size_t n, double s_u, const ty_influence *influence,
 					 reference_candidates candidates);
