@@ -244,7 +244,7 @@ BEGIN
 	END IF;
 	below := coalesce(typify_svg_layer(roads, shown, mm_per_unit, '#d9cfbd', road_width), '')
 		|| coalesce(typify_svg_layer(barriers, shown, mm_per_unit, '#e08e79', greatest(barrier_width, 0.1) * magnify), '');
-	axes := coalesce(typify_svg_layer(rows, shown, mm_per_unit, '#1f77b4', greatest(0.15, 0.08 * magnify)), '');
+	axes := coalesce(typify_svg_layer(rows, shown, mm_per_unit, '#1f77b4', greatest(0.15, 0.05 * magnify)), '');
 	IF before IS NOT NULL OR after IS NULL THEN
 		picture := picture || typify_svg_panel(x, y, shown, mm_per_unit, before, 'building',
 			CASE WHEN after IS NULL THEN black ELSE grey END, below, axes);

@@ -35,19 +35,27 @@ COMMENT ON FUNCTION typify_sides(geometry) IS
 -- ---- reading ----
 
 CREATE FUNCTION typify_quality_source(source text,
-	OUT ids bigint[], OUT centres point[], OUT directions point[], OUT area double precision)
+	OUT ids bigint[], OUT centres point[], OUT directions point[], OUT area double precision,
+	OUT row_numbers bigint[], OUT row_places integer[])
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
 SET jit = off
 AS $$
 BEGIN
-	EXECUTE format('WITH measured AS MATERIALIZED (SELECT id, typify_measures(geom) AS m FROM %s AS b) '
-		'SELECT coalesce(array_agg(id), ''{}''), coalesce(array_agg(point((m).x, (m).y)), ''{}''), '
-			'coalesce(array_agg(point((m).ux, (m).uy)), ''{}''), coalesce(sum((m).area), 0) FROM measured', source)
-	INTO ids, centres, directions, area;
+	EXECUTE format($query$
+WITH measured AS MATERIALIZED (
+	SELECT id, typify_measures(geom) AS m, grp, typify_rows(geom) OVER (PARTITION BY grp) AS r FROM %s AS b
+), numbered AS MATERIALIZED (
+	SELECT measured.*, CASE WHEN (r).place IS NOT NULL THEN dense_rank() OVER (ORDER BY grp, (r).number) END AS number
+	FROM measured
+)
+SELECT coalesce(array_agg(id), '{}'), coalesce(array_agg(point((m).x, (m).y)), '{}'),
+	coalesce(array_agg(point((m).ux, (m).uy)), '{}'), coalesce(sum((m).area), 0), coalesce(array_agg(number), '{}'),
+	coalesce(array_agg((r).place), '{}') FROM numbered$query$, source)
+	INTO ids, centres, directions, area, row_numbers, row_places;
 END $$;
 COMMENT ON FUNCTION typify_quality_source(text) IS
-'Support of typify_quality: the buildings of a sub-select (as typify_source makes it): ids, centres, unit vectors of their longer sides, and the sum of their areas';
+'Support of typify_quality: the buildings of a sub-select (as typify_source makes it): ids, centres, unit vectors of their longer sides, the sum of their areas, the number of the row of buildings that each stands in, as typify_rows finds them in each group, and its place there, NULL for none';
 
 CREATE FUNCTION typify_quality_result(relation regclass, geom_column name, members_column name,
 	OUT geoms geometry[], OUT centres point[], OUT directions point[], OUT not_drawn bigint,
@@ -146,34 +154,64 @@ COMMENT ON FUNCTION typify_quality_gaps(geometry[], double precision, double pre
 
 CREATE FUNCTION typify_quality_links(ids bigint[], centres point[], member_ids bigint[], member_places bigint[],
 	placeholders point[], by_members boolean,
-	OUT links lseg[], OUT members_not_drawn bigint, OUT lost bigint, OUT repeated bigint)
+	OUT places bigint[], OUT links lseg[], OUT members_not_drawn bigint, OUT lost bigint, OUT repeated bigint)
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
 SET enable_nestloop = off
 SET jit = off
 AS $$
 BEGIN
-	IF NOT by_members THEN
-		SELECT coalesce(array_agg(lseg(centre, placeholder)), '{}') INTO links
-		FROM ROWS FROM (unnest(centres), unnest(typify_nearest(centres, placeholders))) AS building (centre, place)
-		JOIN unnest(placeholders) WITH ORDINALITY AS p (placeholder, place) USING (place);
-		RETURN;
+	IF by_members THEN
+		WITH member AS MATERIALIZED (
+			SELECT id, min(place) AS place, count(*) AS times
+			FROM ROWS FROM (unnest(member_ids), unnest(member_places)) AS m (id, place) GROUP BY id
+		)
+		SELECT array_agg(member.place ORDER BY b.number), count(*) FILTER (WHERE times IS NULL),
+			count(*) FILTER (WHERE times > 1), (SELECT count(*) FROM unnest(member_places) AS place WHERE place IS NULL)
+		INTO places, lost, repeated, members_not_drawn
+		FROM unnest(ids) WITH ORDINALITY AS b (id, number) LEFT JOIN member USING (id);
+	ELSE
+		places := typify_nearest(centres, placeholders);
 	END IF;
-	WITH building AS MATERIALIZED (
-		SELECT id, centre FROM ROWS FROM (unnest(ids), unnest(centres)) AS b (id, centre)
-	), member AS MATERIALIZED (
-		SELECT id, place FROM ROWS FROM (unnest(member_ids), unnest(member_places)) AS m (id, place)
-	), times AS (
-		SELECT building.id, count(member.id) AS times FROM building LEFT JOIN member USING (id) GROUP BY building.id
-	)
-	SELECT (SELECT coalesce(array_agg(lseg(centre, placeholder)), '{}') FROM building JOIN member USING (id)
-			JOIN unnest(placeholders) WITH ORDINALITY AS p (placeholder, place) USING (place)),
-		(SELECT count(*) FROM member WHERE place IS NULL),
-		(SELECT count(*) FROM times WHERE times = 0), (SELECT count(*) FROM times WHERE times > 1)
-	INTO links, members_not_drawn, lost, repeated;
+	places := coalesce(places, '{}');
+	SELECT coalesce(array_agg(lseg(centre, placeholder)), '{}') INTO links
+	FROM ROWS FROM (unnest(centres), unnest(places)) AS building (centre, place)
+	JOIN unnest(placeholders) WITH ORDINALITY AS p (placeholder, place) USING (place);
 END $$;
 COMMENT ON FUNCTION typify_quality_links(bigint[], point[], bigint[], bigint[], point[], boolean) IS
-'Support of typify_quality: segments from the centre of each building to that of its placeholder, or, unless by_members, of the nearest one; members of rows that are not drawn; buildings that are a member of no row, and of more than one; NULL unless by_members';
+'Support of typify_quality: places, for each building the place of its placeholder, or, unless by_members, of the nearest one, NULL for none; links, the segments from centre to centre; members of rows that are not drawn; buildings that are a member of no row, and of more than one; the last three NULL unless by_members';
+
+-- What is off the line by more than a tenth of a millimetre is seen to be.
+CREATE FUNCTION typify_quality_rows(centres point[], row_numbers bigint[], row_places integer[], places bigint[],
+	placeholders point[], share double precision, tolerance double precision) RETURNS double precision
+LANGUAGE plpgsql IMMUTABLE PARALLEL SAFE
+SET search_path FROM CURRENT
+SET enable_nestloop = off
+SET jit = off
+AS $$
+DECLARE
+	kept double precision;
+BEGIN
+	WITH member AS MATERIALIZED (
+		SELECT number, row_place, centre, place
+		FROM ROWS FROM (unnest(centres), unnest(row_numbers), unnest(row_places), unnest(places))
+			AS m (centre, number, row_place, place)
+		WHERE number IS NOT NULL
+	), axis AS MATERIALIZED (
+		SELECT number, ST_MakeLine(centre::geometry ORDER BY row_place) AS line, count(DISTINCT place) AS drawn
+		FROM member GROUP BY number HAVING count(*) * share >= 2
+	), off AS (
+		SELECT number, max(ST_Distance(placeholder::geometry, line)) AS distance
+		FROM axis JOIN member USING (number) JOIN unnest(placeholders) WITH ORDINALITY AS p (placeholder, place) USING (place)
+		GROUP BY number
+	)
+	SELECT avg(CASE WHEN drawn >= 2 AND distance <= tolerance THEN 1 ELSE 0 END) INTO kept
+	FROM axis LEFT JOIN off USING (number);
+	RETURN kept;
+END $$;
+COMMENT ON FUNCTION typify_quality_rows(point[], bigint[], integer[], bigint[], point[], double precision,
+	double precision) IS
+'Support of typify_quality: the share of rows of buildings that are kept, of those of which a share of the buildings is two or more: at least two placeholders, and the centres of all within the tolerance of the line along the row''s buildings; NULL where there is no such row';
 
 CREATE FUNCTION typify_quality_barriers(geoms geometry[], links lseg[], barriers lseg[], reach double precision,
 	OUT crossings bigint, OUT gaps bigint, OUT members_across bigint)
@@ -444,6 +482,8 @@ BEGIN
 		SELECT b.crossings, b.gaps, b.members_across INTO barrier_crossings, barrier_gaps, members_across
 		FROM typify_quality_barriers(after.geoms, link.links, barrier_lines, (barrier_width / 2 + min_gap) * unit) AS b;
 	END IF;
+	rows_kept := typify_quality_rows(before.centres, before.row_numbers, before.row_places, link.places, after.centres,
+		coalesce(asked, reached)::float8 / nullif(buildings, 0), 0.1 * unit);
 	SELECT d[1] / unit, d[2] / unit INTO displacement_median, displacement_p99
 	FROM (SELECT percentile_cont(ARRAY[0.5, 0.99]) WITHIN GROUP (ORDER BY @-@ l) AS d FROM unnest(link.links) AS l) AS d;
 	density_cell := cell * unit;
@@ -470,7 +510,7 @@ barriers: a table of lines, NULL for none (the three figures are NULL then). bar
 displacement_median, displacement_p99: how far the centres of buildings are from those of their placeholders, median and 99th percentile, mm on the map. With members_column (integer array of ids of source; by default members, where result has such a column), a building''s placeholder is the drawn row that has it as a member; without, it is the one whose centre is nearest, and members_not_drawn, lost and repeated are NULL.
 ink_before, ink_after: the black-white ratio, the share of settled ground that is inked: the sum of the areas of all buildings, and the area of the union of all polygons drawn, each divided by the area of the cells that contain the centre of a building.
 density_cell: the side of the cells in units of the SRID, of a square grid through its origin; given as cell, mm on the map. density_correlation: of the numbers of buildings and polygons (their centres) in the cells where there is one. density_slope: of the regression of the numbers of polygons on those of buildings, divided by the ratio of all polygons to all buildings: 1 where differences in density stay as they are, below 1 where they are levelled. Both are NULL where all cells are alike.
-rows_kept: not known yet, NULL.
+rows_kept: the share of rows of buildings that are still rows, of those in source (found in each group, as typify_rows does) of which the law leaves two placeholders or more: two placeholders of their buildings at least, and the centres of all within 0.1 mm of the line along the buildings. NULL where there is no such row.
 roads: a table of lines; without one, those of barriers. road_angle_before, road_angle: the median angle between the longer side of a building or polygon and the line nearest to its centre, modulo 90 degrees: from 0 (parallel or at right angles) to 45; NULL without lines.
 dense_groups: how many groups are too dense to typify, which typify_dense_groups names; NULL where asked is.
 Errors: 22004 for a NULL argument that needs a value, and for an id that is NULL; 22023 for a scale or length that is not allowed, ids that occur twice, two SRIDs, a geographic one, and coordinates that are not finite; 0A000 for a result that has other things than polygons, or lines that are none; 42P01, 42703, 42804, 42809 for tables and columns.';

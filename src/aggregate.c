@@ -91,12 +91,13 @@ state_for_row(FunctionCallInfo fcinfo, MemoryContext context, const row_layout *
 
 /* The last building's outline, with which its placeholder may be drawn. */
 static void
-add_outline(ty_state *s, Datum geometry)
+add_outline(ty_state *s, Datum geometry, double importance)
 {
-	MemoryContext old = MemoryContextSwitchTo(s->context);
+	ty_outline *outline = ty_outline_to_draw(geometry, &s->buildings[s->count - 1], importance, &s->parameters,
+											 s->metres_per_unit, s->geometry_type);
 
-	ty_state_give_outline(s, ty_outline_datum(geometry));
-	MemoryContextSwitchTo(old);
+	if (outline != NULL)
+		ty_state_give_outline(s, outline);
 }
 
 /* Adds the row's building; a row without geometry is passed over, and nothing else of it looked at. */
@@ -124,7 +125,7 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 	if (unlikely(importance != 1))
 		ty_state_set_importance(s, importance);
 	if (unlikely(ty_wants_outline(&s->parameters)))
-		add_outline(s, PG_GETARG_DATUM(1));
+		add_outline(s, PG_GETARG_DATUM(1), importance);
 	PG_RETURN_POINTER(s);
 }
 

@@ -7,6 +7,7 @@
 #include "backend.h"
 #include "call.h"
 #include "core/mesh.h"
+#include "geometry.h"
 #include "options.h"
 #include "srid.h"
 
@@ -128,29 +129,17 @@ begin_outlines(ty_state *s)
 	clear_outlines(s, 0);
 }
 
-void
-ty_state_give_outline(ty_state *s, ty_outline *outline)
-{
-	if (outline == NULL)
-		return;
-	begin_outlines(s);
-	s->outlines[s->count - 1] = outline;
-}
-
 static size_t
 outline_bytes(const ty_outline *outline)
 {
 	return ty_outline_size(outline->rings, outline->points);
 }
 
-/* Puts a copy of the outline into the state's context. */
-static ty_outline *
-copy_outline(const ty_state *s, const ty_outline *outline)
+void
+ty_state_give_outline(ty_state *s, const ty_outline *outline)
 {
-	ty_outline *copy = MemoryContextAllocHuge(s->context, outline_bytes(outline));
-
-	memcpy(copy, outline, outline_bytes(outline));
-	return copy;
+	begin_outlines(s);
+	s->outlines[s->count - 1] = ty_copy_outline(outline, s->context);
 }
 
 /* How many outlines a state has, and what they take as they travel. */
@@ -255,7 +244,7 @@ ty_state_merge(ty_state *a, const ty_state *b)
 	begin_outlines(a);
 	for (size_t i = 0; i < b->count; i++)
 		if (b->outlines[i] != NULL)
-			a->outlines[a->count - b->count + i] = copy_outline(a, b->outlines[i]);
+			a->outlines[a->count - b->count + i] = ty_copy_outline(b->outlines[i], a->context);
 }
 
 /* In the current context; an error where a bytea cannot hold it. */

@@ -35,8 +35,8 @@ extern ty_state *ty_state_new(MemoryContext context, const ty_parameters *parame
 /* Room for more buildings behind the last one. */
 extern void ty_state_reserve(ty_state *s, size_t more);
 
-/* The state's last building has an outline, or NULL: memory of the state's context, which from now on is its own. */
-extern void ty_state_give_outline(ty_state *s, ty_outline *outline);
+/* The state's last building is drawn with a copy of this outline. */
+extern void ty_state_give_outline(ty_state *s, const ty_outline *outline);
 
 /* Sets the importance of the last building, which is 1 otherwise. */
 extern void ty_state_set_importance(ty_state *s, double importance);

@@ -72,11 +72,9 @@ typedef struct group
 static double
 importance_of(const group *g, uint32_t building)
 {
-	double keep_area = g->parameters->keep_area;
+	double importance = g->importance == NULL ? 1 : g->importance[building];
 
-	if (keep_area > 0 && g->buildings[building].area >= keep_area)
-		return INFINITY;
-	return g->importance == NULL ? 1 : g->importance[building];
+	return ty_is_kept(g->parameters, g->buildings[building].area, importance) ? INFINITY : importance;
 }
 
 /*
@@ -432,7 +430,7 @@ static bool
 some_are_large(const group *g, size_t n)
 {
 	for (size_t i = 0; g->parameters->keep_area > 0 && i < n; i++)
-		if (g->buildings[i].area >= g->parameters->keep_area)
+		if (ty_is_kept(g->parameters, g->buildings[i].area, 1))
 			return true;
 	return false;
 }

@@ -7,6 +7,8 @@
 #include "environment.h"
 #include "measure.h"
 
+#include <math.h>
+
 typedef enum ty_count_rule
 {
 	TY_RADICAL = 0, /* radical law with exponent (Toepfer and Pillewizer 1966) */
@@ -58,6 +60,13 @@ typedef struct ty_parameters
 	double barrier_width; /* of the symbol of the barriers */
 	ty_barrier_hash barriers;
 } ty_parameters;
+
+/* Whether a building is kept (spec 2.5 and 4.3), for itself or for its size. p: in ground units. */
+static inline bool
+ty_is_kept(const ty_parameters *p, double area, double importance)
+{
+	return importance == INFINITY || (p->keep_area > 0 && area >= p->keep_area);
+}
 
 /* whether buildings' outlines are needed */
 static inline bool

@@ -12,10 +12,8 @@ static bool
 is_shed(const ty_input *input, const ty_parameters *p, size_t i)
 {
 	double area = input->buildings[i].area;
-	bool kept =
-		(p->keep_area > 0 && area >= p->keep_area) || (input->importance != NULL && input->importance[i] == INFINITY);
 
-	return area < p->min_area && !kept;
+	return area < p->min_area && !ty_is_kept(p, area, input->importance == NULL ? 1 : input->importance[i]);
 }
 
 /* Copies the buildings, houses first. */

@@ -37,7 +37,7 @@ FROM (SELECT pg_temp.error_of(format('SELECT typify_options(%I => %s)', field, v
 -- options that are not built yet can be made and stored, and are refused where they are used
 SELECT o AS option, pg_temp.error_of('SELECT typify_options(' || o || ')') AS made,
 	   pg_temp.error_of('SELECT typify(geom, 50000, 0, typify_options(' || o || ')) FROM typify_test_building') AS used
-FROM unnest(ARRAY['min_gap => 0.2', 'shape => ''auto''']) WITH ORDINALITY AS o (o, number)
+FROM unnest(ARRAY['min_gap => 0.2']) WITH ORDINALITY AS o (o, number)
 ORDER BY number;
 SELECT pg_temp.error_of('SELECT typify_placeholders(geom, id, 50000, 0, typify_options(min_gap => 0.2)) FROM typify_test_building');
 SELECT pg_temp.error_of('SELECT typify_cluster(geom, 50000, 0, typify_options(min_gap => 0.2)) OVER () FROM typify_test_building');

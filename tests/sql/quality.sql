@@ -95,6 +95,24 @@ $$ SELECT round(correlation::numeric, 4), round(slope::numeric, 4), settled FROM
 	ARRAY(SELECT point(100, 1) FROM generate_series(1, a)) || ARRAY(SELECT point(700, 1) FROM generate_series(1, b)) || ARRAY(SELECT point(-1, 1) FROM generate_series(1, c)), 500) $$;
 SELECT a, b, c, p.* FROM (VALUES (20, 10, 0), (15, 15, 0), (10, 20, 0), (20, 0, 10), (40, 20, 0), (0, 0, 0)) AS v (a, b, c), placed(a, b, c) AS p ORDER BY 1, 2;
 
+-- rows: two of 12 houses in straight lines, and scattered sheds; four placeholders on each line, one off the line by 4 m (kept) and 6 m (not), a row left with one, and a row of which a third is not drawn
+CREATE TABLE street AS SELECT row_number() OVER () AS id, geom FROM (SELECT box_at(30 * i, 300 * j, 10) AS geom FROM generate_series(1, 12) AS i, generate_series(0, 1) AS j UNION ALL SELECT box_at(i * 7919 % 2003, 700 + i * 104729 % 1009, 3 + i % 5, 6) FROM generate_series(1, 12) AS i) AS h;
+SELECT count(DISTINCT (r).number) AS rows, count(*) AS members FROM (SELECT typify_rows(geom) OVER () AS r FROM street) AS f WHERE (r).place IS NOT NULL;
+CREATE FUNCTION on_street(off float8, thin integer, hidden integer) RETURNS TABLE (geom geometry, members bigint[]) LANGUAGE sql AS
+$$
+	SELECT CASE WHEN n > hidden THEN ST_Translate(ST_Envelope(ST_Collect(geom ORDER BY id)), 0, CASE WHEN n = 1 AND y = 0 THEN off ELSE 0 END) END, array_agg(id)
+	FROM (SELECT id, geom, round(ST_YMin(geom)) AS y, (row_number() OVER (PARTITION BY ST_YMin(geom) ORDER BY ST_XMin(geom)) - 1) / thin + 1 AS n FROM street WHERE ST_YMin(geom) < 600) AS h GROUP BY y, n
+$$;
+CREATE TABLE drawn (geom geometry, members bigint[]);
+CREATE FUNCTION rows_kept(off float8, thin integer, hidden integer) RETURNS float8 LANGUAGE plpgsql AS
+$$ BEGIN
+	TRUNCATE drawn;
+	INSERT INTO drawn SELECT * FROM on_street(off, thin, hidden);
+	RETURN (SELECT q.rows_kept FROM typify_quality('street', 'drawn', 50000) AS q);
+END $$;
+SELECT off, thin, hidden, rows_kept(off, thin, hidden) FROM (VALUES (0, 3, 0), (4, 3, 0), (6, 3, 0), (0, 6, 0), (0, 12, 0), (0, 6, 1), (0, 4, 1)) AS v (off, thin, hidden);
+SELECT q.rows_kept AS too_small_a_scale FROM typify_quality('street', 'drawn', 5000000) AS q;
+
 -- too dense: 400 houses of 100 m2 wall to wall want 200 placeholders of 250 m2 at least at 1:50 000; 20 m apart they have room, and one alone always
 CREATE TABLE blocks AS SELECT row_number() OVER () AS id, grp, geom FROM (
 	SELECT 'dense' AS grp, box_at(10 * i, 10 * j, 10) AS geom FROM generate_series(1, 20) AS i, generate_series(1, 20) AS j

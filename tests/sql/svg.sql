@@ -74,7 +74,7 @@ SELECT ST_GeomFromText('GEOMETRYCOLLECTION(POLYGON((0 0,100 0,100 100,0 100,0 0)
 	ST_GeomFromText('MULTILINESTRING((-50 -50,450 -50))', 25832) AS barriers, ST_GeomFromText('LINESTRING(0 50,400 50)', 25832) AS rows;
 SELECT typify_svg(NULL, after, 50000, barriers => barriers, barrier_width => 0.5, rows => rows, min_gap => 0.2) FROM tight;
 SELECT n, regexp_match(svg, '[0-9]+ overlaps?, [^<]*') AS words, pg_temp.size(svg) AS size, pg_temp.well_formed(svg),
-	(SELECT count(*) FROM regexp_matches(svg, '#1f77b4" stroke-width="0.24"', 'g')) AS rows, svg ~ 'e08e79" stroke-width="1.5"' AS barriers
+	(SELECT count(*) FROM regexp_matches(svg, '#1f77b4" stroke-width="0.15"', 'g')) AS rows, svg ~ 'e08e79" stroke-width="1.5"' AS barriers
 FROM tight, LATERAL (VALUES (1, typify_svg(after, after, 50000, magnify => 3, barriers => barriers, barrier_width => 0.5, rows => rows, min_gap => 0)),
 	(2, typify_svg(NULL, after, 50000, min_gap => 0.1)), (3, typify_svg(NULL, after, 50000, min_gap => 0.100001)),
 	(4, typify_svg(NULL, after, 50000, min_gap => 0.2, frame => ST_MakeEnvelope(2000, 0, 2100, 100, 25832)))) AS picture (n, svg) ORDER BY n;
