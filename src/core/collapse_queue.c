@@ -280,7 +280,10 @@ ty_cover_edge(void *context, uint32_t a, uint32_t b)
 
 /* ---- the first entries: every edge is covered by its end of smaller rank ---- */
 
-/* Keys are lower bounds: what influences make of an edge is asked when its turn comes. */
+/*
+ * Keys are lower bounds: what importances and barriers make of an edge is asked when its turn comes. What rows make of
+ * it is asked here, where their spans are near in memory.
+ */
 static ty_status
 fill_buckets(ty_run *run)
 {
@@ -297,7 +300,7 @@ fill_buckets(ty_run *run)
 		if (a == TY_GHOST || b == TY_GHOST)
 			continue;
 		/* every edge comes twice; to skip one of them would be guessed wrong half the time */
-		key = key_of_cost(ty_plain_cost(run, a, b));
+		key = key_of_cost(run->rows == NULL || a > b ? ty_plain_cost(run, a, b) : edge_cost(run, a, b));
 		key = a < b ? key : TY_NO_KEY;
 		queue->key[a] = key < queue->key[a] ? key : queue->key[a];
 	}

@@ -32,7 +32,8 @@ SELECT h.id, r.id AS road,
 	sign((ST_X(b) - ST_X(a)) * (ST_Y(c) - ST_Y(a)) - (ST_Y(b) - ST_Y(a)) * (ST_X(c) - ST_X(a))) AS side
 FROM house AS h
 CROSS JOIN LATERAL (SELECT ST_Centroid(h.geom) AS c) AS centre
-CROSS JOIN LATERAL (SELECT id, geom FROM settlement_roads ORDER BY ST_Distance(geom, c), id LIMIT 1) AS r
+LEFT JOIN LATERAL (SELECT id, geom FROM settlement_roads
+	WHERE ST_DWithin(geom, c, 120) ORDER BY ST_Distance(geom, c), id LIMIT 1) AS r ON true
 CROSS JOIN LATERAL (SELECT ST_LineLocatePoint(r.geom, c) AS share) AS located
 CROSS JOIN LATERAL (SELECT ST_LineInterpolatePoint(r.geom, greatest(share - 0.01, 0)) AS a,
 	ST_LineInterpolatePoint(r.geom, least(share + 0.01, 1)) AS b) AS ends;
@@ -41,7 +42,7 @@ WITH link AS (
 	FROM house WHERE number IS NOT NULL WINDOW along AS (PARTITION BY number ORDER BY place)
 )
 SELECT count(*) AS links, count(*) FILTER (WHERE row_id = next_row_id) AS of_the_generator,
-	round(avg((coalesce(row_id = next_row_id, false) OR (a.road, a.side) = (b.road, b.side))::integer), 3) AS precision
+	round(avg((coalesce(row_id = next_row_id, false) OR coalesce((a.road, a.side) = (b.road, b.side), false))::integer), 3) AS precision
 FROM link JOIN side AS a USING (id) JOIN side AS b ON b.id = next_id;
 
 -- a row of k equal houses stays on its line and evenly spaced, whatever is left of it, down to 2
