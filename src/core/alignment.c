@@ -49,6 +49,8 @@
 #define SIZE_WEIGHT 0.2	   /* times ratio - 1 */
 #define AXIS_WEIGHT 1.0	   /* times sine */
 
+#define AHEAD 16 /* buildings and stars that are fetched before they are needed */
+
 typedef struct neighbour
 {
 	double length;
@@ -81,6 +83,7 @@ typedef struct search
 	const ty_environment *env;
 	const ty_mesh *mesh;
 	const ty_trait *trait;
+	ty_parting parting;
 	links *choice; /* [n] the neighbours of the triple that each building chose */
 	links *link;   /* [n] */
 	growth *growths;
@@ -241,6 +244,8 @@ choose_triples(search *s)
 
 		if (ty_interrupted_at(s->env, v))
 			return TY_INTERRUPTED;
+		if (v + AHEAD < s->mesh->vertices && s->mesh->vertex[v + AHEAD].edge != TY_NONE)
+			__builtin_prefetch(&s->mesh->triangles[ty_triangle_of(s->mesh->vertex[v + AHEAD].edge)]);
 		s->choice[v] = s->link[v] = (links){{TY_NONE, TY_NONE}};
 		find_neighbours(s, v, &near);
 		for (size_t i = 1; i < near.count; i++)
@@ -279,6 +284,13 @@ join(search *s, uint32_t v, uint32_t w)
 	add_link(s, w, v);
 }
 
+/* Asked of links only, which are few. */
+static bool
+is_parted(const search *s, uint32_t v, uint32_t w)
+{
+	return s->parting.parts != NULL && s->parting.parts(s->parting.context, s->trait[v].place, s->trait[w].place);
+}
+
 static void
 link_mutual(search *s)
 {
@@ -287,7 +299,7 @@ link_mutual(search *s)
 		{
 			uint32_t w = s->choice[v].to[i];
 
-			if (w != TY_NONE && holds(s->choice[w], v))
+			if (w != TY_NONE && holds(s->choice[w], v) && !is_parted(s, v, w))
 				add_link(s, v, w);
 		}
 }
@@ -315,8 +327,8 @@ fits(const search *s, uint32_t v, uint32_t w)
 	neighbour to_v, on;
 
 	if (s->link[w].to[0] == TY_NONE)
-		return true;
-	if (s->link[w].to[1] != TY_NONE || s->link[w].to[0] == v)
+		return !is_parted(s, v, w);
+	if (s->link[w].to[1] != TY_NONE || s->link[w].to[0] == v || is_parted(s, v, w))
 		return false;
 	to_v = neighbour_of(s, w, v);
 	on = neighbour_of(s, w, s->link[w].to[0]);
@@ -569,9 +581,9 @@ allocate_rows(const ty_environment *env, size_t n, ty_rows *rows)
 }
 
 ty_status
-ty_rows_detect(const ty_environment *env, const ty_mesh *mesh, const ty_trait *trait, ty_rows *rows)
+ty_rows_detect(const ty_environment *env, const ty_mesh *mesh, const ty_trait *trait, ty_parting parting, ty_rows *rows)
 {
-	search s = {.env = env, .mesh = mesh, .trait = trait};
+	search s = {.env = env, .mesh = mesh, .trait = trait, .parting = parting};
 	ty_status status = allocate_rows(env, mesh->vertices, rows);
 
 	s.choice = ty_allocate_array(env, mesh->vertices, sizeof *s.choice);
@@ -605,8 +617,6 @@ ty_rows_free(const ty_environment *env, ty_rows *rows)
 }
 
 /* ---- a group by itself ---- */
-
-#define AHEAD 16 /* buildings fetched before they are needed: they lie in any order */
 
 void
 ty_traits(const ty_building *buildings, const uint32_t *order, const ty_mesh *mesh, const ty_grid *grid,
@@ -696,7 +706,7 @@ ty_rows_of_group(const ty_environment *env, const ty_building *buildings, size_t
 	if (status == TY_OK)
 	{
 		ty_traits(buildings, order, &g.mesh, &grid, g.trait);
-		status = ty_rows_detect(env, &g.mesh, g.trait, rows);
+		status = ty_rows_detect(env, &g.mesh, g.trait, (ty_parting){0}, rows);
 	}
 	free_ground(env, &g);
 	return status;

@@ -128,6 +128,7 @@ static inline __attribute__((always_inline)) void
 fetch_stars(const ty_run *run, const uint32_t *v, size_t count, bool to_collapse)
 {
 	const ty_triangle *triangles = run->mesh.triangles;
+	const ty_span *span = run->rows == NULL ? NULL : run->rows->span;
 	uint32_t first[ABREAST], at[ABREAST], outer[ABREAST];
 	size_t walks = 0;
 
@@ -158,6 +159,8 @@ fetch_stars(const ty_run *run, const uint32_t *v, size_t count, bool to_collapse
 
 			if (w != TY_GHOST)
 				__builtin_prefetch(&run->vertex[w]);
+			if (w != TY_GHOST && span != NULL && !to_collapse)
+				__builtin_prefetch(&span[w]);
 			if (to_collapse)
 			{
 				uint32_t apex = ty_origin(&run->mesh, ty_previous_in_triangle(outer[i])); /* fetched one step ago */

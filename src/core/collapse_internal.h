@@ -175,7 +175,7 @@ ty_position ty_merged_place(const ty_run *run, uint32_t a, uint32_t b);
 /* Adds gone to kept, which comes from `former` to their merged place. */
 void ty_join(ty_run *run, uint32_t kept, uint32_t gone, ty_position former, ty_position to);
 /* Records a merge that has been joined. */
-void ty_record(ty_run *run, uint32_t gone, double cost);
+void ty_record(ty_run *run, uint32_t gone, ty_position to, double cost);
 /* Remembers, once gone is out of the mesh, into which vertex it went (in its size, until there is room for a list). */
 void ty_retire(ty_run *run, uint32_t kept, uint32_t gone);
 /* What is left to do once a merged vertex is in the mesh. */
