@@ -211,7 +211,7 @@ BEGIN
 	END IF;
 	layer := typify_layer_definition(source, lod200, coalesce((options).source_scale, 25000), s_u, group_by, options,
 		'each_group', id_column, geom_column, lod200_id_column, lod200_geom_column, lod200_group_by, links, barriers,
-		barriers_geom_column);
+		barriers_geom_column, NULL);
 	PERFORM typify_hierarchy(ST_SetSRID('POINT(0 0)'::geometry, coalesce(ST_SRID((options).barriers), 0)), 0, s_u, options);
 	RETURN (SELECT json_object_agg(CASE key WHEN 'lod25' THEN 'source' WHEN 'allocation' THEN 'life_spans' ELSE key END,
 			CASE key WHEN 'allocation' THEN to_json(life_spans) ELSE value END)
@@ -310,11 +310,20 @@ $$;
 COMMENT ON FUNCTION typify_hierarchy_barriers(jsonb) IS
 'A number that tells whether the table of barriers of a hierarchy is the same as before; NULL without one.';
 
+CREATE TYPE typify_hierarchy_change AS (
+	group_id integer,
+	grp text,
+	count bigint,
+	exponent double precision,
+	psi double precision
+);
+COMMENT ON TYPE typify_hierarchy_change IS
+'A group of a hierarchy whose nodes are to be made, with what they are made of now. group_id: NULL for a new group. count: 0 for one that has no buildings any more. exponent, psi: where they are its own.';
+
 -- A group counts as changed when its buildings, exponent or psi are not what its nodes were made of, and when it is
 -- named; all count as changed when the table of barriers is another than before. Where nothing is calibrated, and groups
 -- are named, nothing else is looked at.
-CREATE FUNCTION typify_hierarchy_changes(hierarchy regclass, named text[])
-RETURNS TABLE (group_id integer, grp text, count bigint, exponent double precision, psi double precision)
+CREATE FUNCTION typify_hierarchy_changes(hierarchy regclass, named text[]) RETURNS typify_hierarchy_change[]
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
 SET jit = off
@@ -331,6 +340,7 @@ DECLARE
 	wanted text[] := CASE WHEN NOT calibrated THEN named END;
 	plan record;
 	compared boolean;
+	changes typify_hierarchy_change[];
 	moved boolean := part.definition->>'barriers_state' IS DISTINCT FROM typify_hierarchy_barriers(part.definition)::text;
 BEGIN
 	IF NOT calibrated THEN
@@ -338,7 +348,7 @@ BEGIN
 	END IF;
 	EXECUTE format('SELECT * FROM %s', typify_layer_call(layer, 'typify_plan', '$1')) INTO plan USING wanted;
 	EXECUTE format('SELECT count(*) > 0 FROM %s WHERE built', part.groups) INTO compared;
-	RETURN QUERY EXECUTE format(
+	EXECUTE format(
 		'WITH level AS (
 			SELECT typify_group_key(grp) AS key, grp, n25 AS n, ordinality AS place, (options).exponent, (options).psi
 			FROM unnest($1) WITH ORDINALITY
@@ -348,18 +358,20 @@ BEGIN
 		), now AS (
 			SELECT typify_group_key(grp) AS key, bit_xor(typify_building_hash(geom, id)) AS state FROM %s AS b WHERE $3 GROUP BY grp
 		)
-		SELECT known.group_id, coalesce(known.grp, level.grp), coalesce(level.n, 0),
-			CASE WHEN $4 THEN level.exponent END, CASE WHEN $4 THEN level.psi END
+		SELECT array_agg(ROW(known.group_id, coalesce(known.grp, level.grp), coalesce(level.n, 0),
+			CASE WHEN $4 THEN level.exponent END, CASE WHEN $4 THEN level.psi END)::typify_hierarchy_change
+			ORDER BY known.group_id, level.place)
 		FROM level FULL JOIN known USING (key) LEFT JOIN now USING (key)
 		WHERE level.key IS NULL OR known.key IS NULL OR $4 AND (known.exponent, known.psi) IS DISTINCT FROM
-			(level.exponent, level.psi) OR key = ANY ($5) OR NOT known.built OR $6 OR $3 AND known.state IS DISTINCT FROM now.state
-		ORDER BY known.group_id, level.place', part.groups, typify_layer_source(layer, wanted))
-	USING plan.levels, typify_group_keys(wanted), compared AND named IS NULL, calibrated, typify_group_keys(named),
+			(level.exponent, level.psi) OR key = ANY ($5) OR NOT known.built OR $6 OR $3 AND known.state IS DISTINCT FROM now.state',
+		part.groups, typify_layer_source(layer, wanted))
+	INTO changes USING plan.levels, typify_group_keys(wanted), compared AND named IS NULL, calibrated, typify_group_keys(named),
 		compared AND named IS NULL AND moved;
+	RETURN changes;
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_changes(regclass, text[]) IS
-'The groups of a hierarchy whose nodes are to be made, with what they are made of now: known ones that changed, by group_id, then new ones, which have none, by the bytes of their names. count 0: the group has no buildings any more. named: these groups count as changed; NULL: every group is compared. Errors: as of typify_derive.';
+'The groups of a hierarchy whose nodes are to be made: known ones that changed, by group_id, then new ones by the bytes of their names; NULL when there is none. named: these groups count as changed; NULL: every group is compared. Errors: as of typify_derive.';
 
 CREATE FUNCTION typify_latitude(extent geometry) RETURNS double precision
 LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE
@@ -414,29 +426,28 @@ $$;
 COMMENT ON FUNCTION typify_hierarchy_note(regclass) IS
 'Writes down of every group whose nodes are new what they were made of: count, state, reach, extent and latitude. A group without buildings is removed.';
 
-CREATE FUNCTION typify_hierarchy_mark(hierarchy regclass, named text[]) RETURNS void
+CREATE FUNCTION typify_hierarchy_mark(hierarchy regclass, changes typify_hierarchy_change[]) RETURNS void
 LANGUAGE plpgsql
 SET search_path FROM CURRENT AS
 $$
 DECLARE
 	part record := typify_hierarchy_parts(hierarchy);
 BEGIN
-	PERFORM typify_hierarchy_note(hierarchy);
 	EXECUTE format(
-		'WITH change AS MATERIALIZED (SELECT * FROM typify_hierarchy_changes($1, $2)),
-		removed AS (DELETE FROM %1$s AS n USING change WHERE n.group_id = change.group_id),
-		gone AS (DELETE FROM %2$s AS g USING change WHERE g.group_id = change.group_id AND change.count = 0),
+		'WITH change AS (SELECT * FROM unnest($1)),
+		removed AS (DELETE FROM %1$s AS n WHERE n.group_id IN (SELECT group_id FROM change)),
+		gone AS (DELETE FROM %2$s AS g WHERE g.group_id IN (SELECT group_id FROM change WHERE count = 0)),
 		changed AS (
 			UPDATE %2$s AS g SET count = change.count, exponent = change.exponent, psi = change.psi, built = false,
 				state = NULL
 			FROM change WHERE g.group_id = change.group_id AND change.count > 0)
 		INSERT INTO %2$s (group_id, grp, count, exponent, psi)
 		SELECT (SELECT coalesce(max(group_id), 0) FROM %2$s) + row_number() OVER (), grp, count, exponent, psi
-		FROM change WHERE group_id IS NULL', part.nodes, part.groups) USING hierarchy, named;
+		FROM change WHERE group_id IS NULL', part.nodes, part.groups) USING changes;
 END
 $$;
-COMMENT ON FUNCTION typify_hierarchy_mark(regclass, text[]) IS
-'Removes the nodes of the groups that typify_hierarchy_changes lists and leaves these groups, those that are new and those without buildings included, as they are to be built: not built, or not there.';
+COMMENT ON FUNCTION typify_hierarchy_mark(regclass, typify_hierarchy_change[]) IS
+'Removes the nodes of these groups and leaves the groups, those that are new and those without buildings included, as they are to be built: not built, or not there.';
 
 CREATE FUNCTION typify_hierarchy_fill(hierarchy regclass, ids integer[]) RETURNS void
 LANGUAGE plpgsql
@@ -559,9 +570,9 @@ BEGIN
 			EXECUTE format('CLUSTER %s USING %s', part.nodes, typify_layer_index(hierarchy, 'place'));
 			EXECUTE format('ALTER TABLE %s SET WITHOUT CLUSTER', part.nodes);
 		END IF;
+		EXECUTE format('ANALYZE %s (group_id, node, scale_from, scale_to, place)', part.nodes);
+		EXECUTE format('ANALYZE %s', part.groups);
 	END IF;
-	EXECUTE format('ANALYZE %s (group_id, node, scale_from, scale_to, place)', part.nodes);
-	EXECUTE format('ANALYZE %s', part.groups);
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_complete(regclass) IS
@@ -603,7 +614,8 @@ BEGIN
 		FROM (SELECT key, value FROM json_each(definition) UNION ALL SELECT 'finished', 'false') AS pair;
 		hierarchy := typify_hierarchy_create(nodes_name, groups_name, definition);
 	END IF;
-	PERFORM typify_hierarchy_mark(hierarchy, NULL);
+	PERFORM typify_hierarchy_note(hierarchy);
+	PERFORM typify_hierarchy_mark(hierarchy, typify_hierarchy_changes(hierarchy, NULL));
 	EXECUTE format('SELECT count(*), count(*) FILTER (WHERE built) FROM %s', groups_name) INTO groups, done;
 END
 $$;
