@@ -211,7 +211,7 @@ BEGIN
 	END IF;
 	layer := typify_layer_definition(source, lod200, coalesce((options).source_scale, 25000), s_u, group_by, options,
 		'each_group', id_column, geom_column, lod200_id_column, lod200_geom_column, lod200_group_by, links, barriers,
-		barriers_geom_column);
+		barriers_geom_column, NULL);
 	PERFORM typify_hierarchy(ST_SetSRID('POINT(0 0)'::geometry, coalesce(ST_SRID((options).barriers), 0)), 0, s_u, options);
 	RETURN (SELECT json_object_agg(CASE key WHEN 'lod25' THEN 'source' WHEN 'allocation' THEN 'life_spans' ELSE key END,
 			CASE key WHEN 'allocation' THEN to_json(life_spans) ELSE value END)

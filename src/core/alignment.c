@@ -27,7 +27,8 @@
  * Liechtenstein and Leipzig. Lengths are multiples of the smaller building's side, the square root of its area.
  */
 #define REACH 4.5			   /* neighbours' centres are no farther apart: houses in gardens have 2 to 3.5 */
-#define BESIDE 2.25			   /* a small building that is looked past is no farther: half the reach */
+#define BESIDE 2.25			   /* a small building that is looked past is no farther, half the reach ... */
+#define BESIDE_SIZE 3.0		   /* ... and the building is so many times as large */
 #define SIZE_RATIO 2.0		   /* of areas of neighbours */
 #define ORIENTATION 0.939	   /* cosine: 20 degrees between neighbours */
 #define SQUARE_RATIO 0.5	   /* of two ratios multiplied: from here on the longer side may be either */
@@ -163,7 +164,7 @@ is_beside(const ty_trait *of, const ty_trait *small)
 {
 	double x = (double) small->place.x - of->place.x, y = (double) small->place.y - of->place.y;
 
-	return small->area < of->area && x * x + y * y <= BESIDE * BESIDE * of->area;
+	return BESIDE_SIZE * small->area < of->area && x * x + y * y <= BESIDE * BESIDE * of->area;
 }
 
 /* Adds what is beside the small building `small` to v's neighbours. */

@@ -200,7 +200,7 @@ look_again(ty_run *run, uint32_t b, lookout *looked)
 	fetch_stars(run, looked->vertex, looked->count, false);
 	for (size_t i = 0; i < looked->count && status == TY_OK; i++)
 	{
-		ty_edge least = ty_least_edge(run, looked->vertex[i]);
+		ty_edge least = ty_next_edge(run, looked->vertex[i], ty_waiting_floor(run, looked->vertex[i]));
 
 		status = ty_queue_settle(run, least);
 		if (least.other == TY_NONE || !ty_is_near(&run->queue, least))
@@ -276,7 +276,7 @@ limit_of_part(const ty_run *run, uint32_t b)
 			uint32_t v = queue->chunk[c].vertex[i];
 
 			if (met++ % every == 0 && is_waiting(run, v, b))
-				sample[samples++] = ty_least_edge(run, v);
+				sample[samples++] = ty_next_edge(run, v, ty_waiting_floor(run, v));
 		}
 	if (samples == 0)
 		return end;
@@ -303,6 +303,7 @@ ty_bucket_drain(ty_run *run, bool *found)
 	if (!*found)
 		return TY_OK;
 	queue->next = b;
+	queue->passed = queue->limit;
 	queue->limit = queue->bucket[b].count > GIANT(run->n) ? limit_of_part(run, b) : end_of_bucket(queue, b);
 	queue->sorted_count = 0;
 	bucket = queue->bucket[b];

@@ -145,3 +145,5 @@ SELECT pg_temp.error_of('SELECT * FROM typify_at(''town'', 50000)'), pg_temp.err
 ALTER TABLE few_groups RENAME TO lost;
 SELECT pg_temp.error_of('SELECT * FROM typify_at(''few'', 50000)');
 DROP TABLE town, town_groups, ranked, ranked_groups, few, lost, none, none_groups, sparse, nobody;
+DROP VIEW hamlet;
+DROP TABLE settlement_buildings, settlement_roads, settlement_blocks;

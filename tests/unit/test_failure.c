@@ -186,6 +186,7 @@ weigh(size_t n, ty_parameters *p)
 		importance[i] = i % 40 == 1 ? INFINITY : 1 + (double) (i % 3);
 	p->min_area = 80;
 	p->keep_area = 395;
+	p->alignment = 2;
 }
 
 /* Typifies with what begin() set up and frees the result; says whether the environment was left by longjmp. */
