@@ -335,9 +335,14 @@ static void
 hierarchies_fail_and_stop_as_cleanly(void)
 {
 	all_scales = true;
-	every_allocation_may_fail();
-	every_allocation_may_leave_by_longjmp();
-	interrupt_each_poll(LARGE_CLUSTERED, 20000);
+	for (size_t n = 1; n <= 1000; n = 9 * n + 1)
+	{
+		fail_each_allocation(LARGE_ONE_POINT, n);
+		weighed = true;
+		fail_each_allocation(LARGE_CLUSTERED, n);
+		weighed = false;
+	}
+	interrupt_each_poll(LARGE_CLUSTERED, 5000);
 	all_scales = false;
 }
 
