@@ -152,6 +152,20 @@ ty_line_points(Datum geometry, uint32 *n)
 }
 
 Datum
+ty_move_datum(Datum geometry, int32 srid, ty_point (*move)(const void *context, ty_point p), const void *context)
+{
+	detoasted d = detoast(geometry);
+	struct varlena *value = palloc(VARHDRSZ + d.size);
+	size_t size = 0;
+
+	if (!ty_geometry_move(d.payload, d.size, srid, move, context, (unsigned char *) VARDATA(value), &size))
+		check_geometry(TY_GEOMETRY_CORRUPT, &d, 0, NULL);
+	SET_VARSIZE(value, VARHDRSZ + size);
+	release(&d);
+	return PointerGetDatum(value);
+}
+
+Datum
 ty_ring_datum(const ty_point *ring, uint32 n, int32 srid)
 {
 	size_t size = VARHDRSZ + TY_RING_PAYLOAD(n);

@@ -25,6 +25,10 @@ extern bool ty_geometry_datum_has_points(Datum geometry);
 /* The points of a LINESTRING in the current context; NULL when it has none, and for any other type. */
 extern ty_point *ty_line_points(Datum geometry, uint32 *n);
 
+/* A geometry with every point moved, of another SRID, in the current context. */
+extern Datum ty_move_datum(Datum geometry, int32 srid, ty_point (*move)(const void *context, ty_point p),
+						   const void *context);
+
 /* A closed ring as a POLYGON, and a LINESTRING whose n points *points are still to be set. */
 extern Datum ty_ring_datum(const ty_point *ring, uint32 n, int32 srid);
 extern Datum ty_line_datum(int32 srid, uint32 n, ty_point **points);

@@ -534,6 +534,49 @@ ty_geometry_outline(const ty_environment *env, const unsigned char *payload, siz
 	return status;
 }
 
+/* ---- a copy with every point moved ---- */
+
+typedef struct moving
+{
+	ty_point (*move)(const void *context, ty_point p);
+	const void *context;
+} moving;
+
+static bool
+move_points(void *context, const unsigned char *points, size_t stride, uint32_t n)
+{
+	const moving *m = context;
+	/* they lie in the copy, which is ours to change */
+	unsigned char *at = (unsigned char *) points;
+	ty_point p;
+
+	for (uint32_t i = 0; i < n; i++, at += stride)
+	{
+		memcpy(&p, at, sizeof(p));
+		p = m->move(m->context, p);
+		memcpy(at, &p, sizeof(p));
+	}
+	return true;
+}
+
+bool
+ty_geometry_move(const unsigned char *payload, size_t size, int32_t srid,
+				 ty_point (*move)(const void *context, ty_point p), const void *context, unsigned char *copy,
+				 size_t *copy_size)
+{
+	moving m = {move, context};
+	int32_t old_srid;
+	cursor c;
+
+	if (!open_payload(payload, size, &c, &old_srid))
+		return false;
+	/* without further flags and without a box, which would be another */
+	*copy_size = HEADER_SIZE + left(&c);
+	memcpy(copy + HEADER_SIZE, c.at, left(&c));
+	pack_header(copy, srid, (unsigned char) ((payload[3] & (FLAG_Z | FLAG_M)) | FLAG_VERSION_2));
+	return walk_points(copy, *copy_size, move_points, &m);
+}
+
 /* ---- types and writing ---- */
 
 const char *

@@ -78,6 +78,14 @@ bool ty_geometry_line(const unsigned char *payload, size_t size, const unsigned 
 ty_geometry_status ty_geometry_outline(const ty_environment *env, const unsigned char *payload, size_t size,
 									   ty_outline **outline);
 
+/*
+ * A copy of a geometry of any type with every point moved in x and y, with another SRID and without a box. copy: room for
+ * size bytes; *copy_size: how many it takes. False: corrupt.
+ */
+bool ty_geometry_move(const unsigned char *payload, size_t size, int32_t srid,
+					  ty_point (*move)(const void *context, ty_point p), const void *context, unsigned char *copy,
+					  size_t *copy_size);
+
 /* "Polygon" for 3 and so on; "unknown" for numbers that PostGIS does not use */
 const char *ty_geometry_type_name(uint32_t type);
 

@@ -178,3 +178,20 @@ typify_tile_node(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	PG_RETURN_DATUM(ty_ring_datum(ring, n, 0));
 }
+
+static ty_point
+to_mercator(const void *context, ty_point p)
+{
+	const tile_frame *frame = context;
+
+	return ty_lattice_interpolate(&frame->lattice, frame->places, p);
+}
+
+PG_FUNCTION_INFO_V1(typify_tile_project);
+Datum
+typify_tile_project(PG_FUNCTION_ARGS)
+{
+	const tile_frame *frame = frame_argument(PG_GETARG_DATUM(1));
+
+	PG_RETURN_DATUM(ty_move_datum(PG_GETARG_DATUM(0), MERCATOR_SRID, to_mercator, frame));
+}

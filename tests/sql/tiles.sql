@@ -118,6 +118,16 @@ SELECT z, u, v, id, polygon FROM generate_series(12, 14) AS z, pg_temp.tile(z), 
 SELECT count(*) >= 20 AS across_borders, bool_and(ST_AsText(a.polygon) = ST_AsText(ST_Translate(b.polygon, 4096 * (b.u - a.u), 4096 * (b.v - a.v)))) AS same
 FROM seen AS a JOIN seen AS b USING (z, id) WHERE (a.u, a.v) < (b.u, b.v);
 
+-- outlines go the same way, whatever their type
+SELECT GeometryType(p) AS type, ST_Zmflag(p) AS zm, ST_SRID(p) AS srid, ST_NPoints(p) AS points,
+	ST_HausdorffDistance(ST_Force2D(p), ST_Force2D(ST_Transform(geom, 3857))) < 0.05 AS close
+FROM (SELECT typify_tile_frame(l, ST_Transform(l, 3857), 13, x, y) AS frame
+		FROM typify_tile_lattice(500000, 5430000, 504000, 5434000, 25832, 13, 1) AS l, pg_temp.tile(13)) AS f,
+	unnest(ARRAY['POLYGON((500100 5430100,500130 5430100,500130 5430120,500100 5430100),(500110 5430104,500112 5430105,500111 5430102,500110 5430104))',
+		'MULTIPOLYGON Z (((503900 5433900 7,503990 5433900 7,503990 5433990 8,503900 5433900 7)))', 'POINT M (502000 5431000 3)',
+		'LINESTRING(500500 5430500,503500 5433500)', 'CIRCULARSTRING(500500 5430500,500600 5430600,500700 5430500)', 'POLYGON EMPTY']) AS text,
+	LATERAL (SELECT ST_GeomFromText(text, 25832) AS geom) AS g, LATERAL (SELECT typify_tile_project(geom, frame) AS p OFFSET 0) AS t;
+
 -- other coordinate systems: in feet, in Web Mercator itself, and one whose grid is turned
 CREATE TABLE others (name text, srid integer);
 INSERT INTO spatial_ref_sys (srid, proj4text) VALUES (990101, '+proj=tmerc +lat_0=48 +lon_0=9 +ellps=GRS80 +units=ft +no_defs');
