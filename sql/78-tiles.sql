@@ -1,8 +1,8 @@
 -- 78-tiles.sql: a function that makes vector tiles, written into the user's schema
 --
 -- pg_tileserv and Martin publish every function that takes (z, x, y integer [, json]) and returns bytea. So none of
--- typify's own may look like that: the tile function is written for a hierarchy by typify_create_tile_function, belongs to
--- who calls it and not to the extension, and names everything that it reads by schema.
+-- typify's own may look like that: the tile function is written for a hierarchy by typify_create_tile_function, belongs
+-- to who calls it and not to the extension, and names everything that it reads by schema.
 --
 -- What a tile shows is found in three steps: the tile's box, brought back into the coordinate system of the hierarchy;
 -- the nodes alive in that box, each group at its own scale; and their polygons in units of the tile, by a lattice of
