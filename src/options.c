@@ -93,7 +93,7 @@ static const option_entry entries[OPTIONS] = {
 	{.name = "min_side", .kind = NUMBER_FROM_0},
 	{.name = "max_area", .kind = NUMBER_FROM_0},
 	{.name = "keep_area", .kind = NUMBER_FROM_0, .state = UNBUILT},
-	{.name = "min_gap", .kind = NUMBER_FROM_0, .state = UNBUILT},
+	{.name = "min_gap", .kind = NUMBER_FROM_0},
 	{.name = "alignment", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
 	{.name = "barriers", .kind = GEOMETRY, .state = OFF_OR_UNBUILT},
 	{.name = "barrier_width", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
@@ -280,6 +280,7 @@ apply_options(const option_values *options, ty_parameters *p)
 	p->shape = (ty_shape) word_or(options, OPTION_SHAPE, TY_RECTANGLE);
 	p->min_side = number_or(options, OPTION_MIN_SIDE, 0);
 	p->max_area = number_or(options, OPTION_MAX_AREA, TY_DEFAULT_MAX_AREA_SIDES * p->min_side * p->min_side);
+	p->min_gap = number_or(options, OPTION_MIN_GAP, 0);
 }
 
 void
@@ -317,7 +318,7 @@ ty_same_parameters(const ty_parameters *a, const ty_parameters *b)
 		   a->lod200_scale == b->lod200_scale && a->exponent == b->exponent && a->psi == b->psi &&
 		   a->min_distance == b->min_distance && a->count == b->count && a->law == b->law &&
 		   a->count_rule == b->count_rule && a->area_statistic == b->area_statistic && a->shape == b->shape &&
-		   a->min_side == b->min_side && a->max_area == b->max_area;
+		   a->min_side == b->min_side && a->max_area == b->max_area && a->min_gap == b->min_gap;
 }
 
 /* Dropped attributes, which the shape may have behind the fields, are null. */

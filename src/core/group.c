@@ -1,8 +1,7 @@
 /* group.c - see group.h */
-#include "group.h"
+#include "group_internal.h"
 
 #include "collapse.h"
-#include "grid.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,15 +13,10 @@
  * TY_MAX_VERTICES of them fit into: exact for every area above 2^-44 of the largest, and in no case dependent on
  * the order. An area below 2^-97 of the largest adds nothing.
  */
-typedef struct area_scale
-{
-	double to_units, from_units;
-} area_scale;
-
 #define AREA_BITS 97
 #define LEAST_AREA_EXPONENT (-900) /* below, 1 / unit would overflow */
 
-static area_scale
+static ty_area_scale
 fit_area_scale(const ty_building *buildings, size_t n)
 {
 	double largest = 0;
@@ -33,12 +27,12 @@ fit_area_scale(const ty_building *buildings, size_t n)
 	(void) frexp(largest, &exponent);
 	if (exponent < LEAST_AREA_EXPONENT)
 		exponent = LEAST_AREA_EXPONENT;
-	return (area_scale){ldexp(1, AREA_BITS - exponent), ldexp(1, exponent - AREA_BITS)};
+	return (ty_area_scale){ldexp(1, AREA_BITS - exponent), ldexp(1, exponent - AREA_BITS)};
 }
 
 /* sum over n buildings; members, if given, are their indices */
 static double
-sum_areas(const ty_building *buildings, const uint32_t *members, size_t n, area_scale scale)
+sum_areas(const ty_building *buildings, const uint32_t *members, size_t n, ty_area_scale scale)
 {
 	__int128 sum = 0;
 
@@ -48,19 +42,6 @@ sum_areas(const ty_building *buildings, const uint32_t *members, size_t n, area_
 }
 
 /* ---- one placeholder ---- */
-
-typedef struct group
-{
-	const ty_building *buildings;
-	const ty_parameters *parameters;
-	ty_grid grid;
-	area_scale scale;
-	double area_factor;
-	uint32_t *order;	   /* [n] building by rank */
-	ty_position *position; /* [n] by rank */
-	uint64_t *area_bits;   /* [largest number of members] scratch of the median ... */
-	uint32_t *sorted;	   /* ... and what its sort moves along */
-} group;
 
 /* an area whose bits the median has sorted; they ascend as areas do, which are not negative */
 static double
@@ -73,7 +54,7 @@ area_of_bits(uint64_t bits)
 }
 
 static ty_status
-median_area(const ty_environment *env, const group *g, const uint32_t *members, size_t n, double *median)
+median_area(const ty_environment *env, const ty_group *g, const uint32_t *members, size_t n, double *median)
 {
 	ty_status status;
 
@@ -87,7 +68,7 @@ median_area(const ty_environment *env, const group *g, const uint32_t *members, 
 
 /* the statistic of the members' areas, unscaled (spec 3.2) */
 static ty_status
-area_statistic(const ty_environment *env, const group *g, const uint32_t *members, size_t n, double *area)
+area_statistic(const ty_environment *env, const ty_group *g, const uint32_t *members, size_t n, double *area)
 {
 	ty_area_statistic statistic = g->parameters->area_statistic;
 
@@ -102,11 +83,11 @@ area_statistic(const ty_environment *env, const group *g, const uint32_t *member
 
 /* How large the placeholder is drawn, whose representative is b. */
 static void
-set_size(const group *g, const ty_building *b, double statistic, ty_placeholder *p)
+set_size(const ty_group *g, const ty_building *b, ty_placeholder *p)
 {
-	double area = ty_scaled_area(g->parameters, g->area_factor, statistic);
+	double area = ty_scaled_area(g->parameters, g->area_factor, p->statistic);
 	double ratio = g->parameters->shape == TY_SQUARE ? 1 : b->ratio;
-	ty_size size = ty_drawn_size(g->parameters, statistic, area, ratio, p->count);
+	ty_size size = ty_drawn_size(g->parameters, p->statistic, area, ratio, p->count);
 
 	p->area = size.area;
 	p->ratio = size.ratio;
@@ -116,7 +97,7 @@ set_size(const group *g, const ty_building *b, double statistic, ty_placeholder 
 
 /* the largest area, then the smallest rank; members ascend by rank */
 static uint32_t
-representative(const group *g, const uint32_t *members, size_t n)
+representative(const ty_group *g, const uint32_t *members, size_t n)
 {
 	uint32_t best = members[0];
 
@@ -130,19 +111,17 @@ representative(const group *g, const uint32_t *members, size_t n)
 
 /* Fetches the buildings of as many members as the placeholder has, AHEAD of its own. */
 static inline __attribute__((always_inline)) void
-fetch_ahead(const group *g, const ty_result *result, const ty_placeholder *p, size_t n)
+fetch_ahead(const ty_group *g, const ty_result *result, const ty_placeholder *p, size_t n)
 {
 	for (size_t i = p->first + AHEAD; i < (size_t) p->first + p->count + AHEAD && i < n; i++)
 		__builtin_prefetch(&g->buildings[result->members[i]]);
 }
 
-/* Fills in a placeholder whose members are known. rank: the smallest of them, where the vertex is kept. */
-static ty_status
-describe(const ty_environment *env, const group *g, const uint32_t *members, uint32_t rank, ty_placeholder *p)
+ty_status
+ty_describe(const ty_environment *env, const ty_group *g, const uint32_t *members, uint32_t rank, ty_placeholder *p)
 {
 	const ty_building *b;
-	double statistic = 0;
-	ty_status status = area_statistic(env, g, members + p->first, p->count, &statistic);
+	ty_status status = area_statistic(env, g, members + p->first, p->count, &p->statistic);
 
 	p->representative = representative(g, members + p->first, p->count);
 	b = &g->buildings[p->representative];
@@ -151,7 +130,7 @@ describe(const ty_environment *env, const group *g, const uint32_t *members, uin
 	p->y = p->count == 1 ? b->y : ty_grid_y(&g->grid, g->position[rank].y);
 	p->ux = b->ux;
 	p->uy = b->uy;
-	set_size(g, b, statistic, p);
+	set_size(g, b, p);
 	if (status == TY_OK && (!isfinite(p->area) || !isfinite(p->length)))
 		status = TY_NOT_FINITE;
 	return status;
@@ -159,9 +138,8 @@ describe(const ty_environment *env, const group *g, const uint32_t *members, uin
 
 /* ---- the whole group ---- */
 
-/* Sorts the ranks by label, stably; first[] and count[] of the placeholders, and members as buildings. */
-static void
-list_members(const uint32_t *label, const uint32_t *order, size_t n, ty_result *result)
+void
+ty_list_members(const uint32_t *label, const uint32_t *order, size_t n, ty_result *result)
 {
 	uint32_t first = 0;
 
@@ -194,7 +172,7 @@ most_members(const ty_result *result)
 }
 
 static ty_status
-describe_all(const ty_environment *env, const group *g, const uint32_t *label, size_t n, ty_result *result)
+describe_all(const ty_environment *env, const ty_group *g, const uint32_t *label, size_t n, ty_result *result)
 {
 	ty_status status = TY_OK;
 	size_t next = 0;
@@ -207,7 +185,7 @@ describe_all(const ty_environment *env, const group *g, const uint32_t *label, s
 		if (label[rank] != next)
 			continue;
 		fetch_ahead(g, result, p, n);
-		status = describe(env, g, result->members, (uint32_t) rank, p);
+		status = ty_describe(env, g, result->members, (uint32_t) rank, p);
 		result->undrawn += !(p->area > 0);
 		next++;
 		if (ty_interrupted_at(env, next))
@@ -218,11 +196,11 @@ describe_all(const ty_environment *env, const group *g, const uint32_t *label, s
 	return status;
 }
 
-/* room for the median of the placeholder with most members */
+/* room for the median of the placeholder with most members, which may be all where some are joined */
 static ty_status
-prepare_median(const ty_environment *env, group *g, const ty_result *result)
+prepare_median(const ty_environment *env, ty_group *g, size_t n, const ty_result *result)
 {
-	uint32_t most = most_members(result);
+	size_t most = g->parameters->min_gap > 0 ? n : most_members(result);
 
 	if (g->parameters->area_statistic != TY_MEDIAN)
 		return TY_OK;
@@ -235,7 +213,7 @@ prepare_median(const ty_environment *env, group *g, const ty_result *result)
 }
 
 static ty_status
-cut_and_describe(const ty_environment *env, group *g, const ty_sequence *sequence, size_t n, ty_result *result)
+cut_and_describe(const ty_environment *env, ty_group *g, const ty_sequence *sequence, size_t n, ty_result *result)
 {
 	uint32_t *label = ty_allocate_array(env, n, sizeof *label);
 	ty_status status = TY_NO_MEMORY;
@@ -245,10 +223,12 @@ cut_and_describe(const ty_environment *env, group *g, const ty_sequence *sequenc
 	if (label != NULL && result->members != NULL && result->placeholders != NULL)
 	{
 		result->count = ty_sequence_cut(sequence, sequence->count, n, label);
-		list_members(label, g->order, n, result);
-		status = prepare_median(env, g, result);
+		ty_list_members(label, g->order, n, result);
+		status = prepare_median(env, g, n, result);
 		if (status == TY_OK)
 			status = describe_all(env, g, label, n, result);
+		if (status == TY_OK && g->parameters->min_gap > 0)
+			status = ty_make_group_legible(env, g, label, n, result);
 	}
 	ty_release(env, label);
 	return status;
@@ -256,7 +236,7 @@ cut_and_describe(const ty_environment *env, group *g, const ty_sequence *sequenc
 
 /* when to stop, in the core's terms */
 static ty_stop
-find_stop(const group *g, size_t n)
+find_stop(const ty_group *g, size_t n)
 {
 	const ty_parameters *p = g->parameters;
 	ty_stop stop = {n, p->min_distance / g->grid.cell};
@@ -270,7 +250,7 @@ find_stop(const group *g, size_t n)
 }
 
 static ty_status
-order_group(const ty_environment *env, group *g, size_t n)
+order_group(const ty_environment *env, ty_group *g, size_t n)
 {
 	uint64_t *keys = ty_allocate_array(env, n, sizeof *keys);
 	ty_status status = TY_NO_MEMORY;
@@ -288,7 +268,7 @@ ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters 
 {
 	const ty_building *buildings = input->buildings;
 	size_t n = input->n;
-	group g = {.buildings = buildings, .parameters = p, .area_factor = ty_area_factor(p)};
+	ty_group g = {.buildings = buildings, .parameters = p, .area_factor = ty_area_factor(p)};
 	ty_sequence sequence = {0};
 	ty_status status;
 

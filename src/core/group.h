@@ -17,9 +17,11 @@ typedef struct ty_input
 
 typedef struct ty_placeholder
 {
-	double x, y; /* the vertex, ground units; of a single building its very centroid, off the grid */
+	double x,
+		y; /* the vertex, ground units; of a single building its very centroid, off the grid; unless min_gap moved it */
 	double area; /* what is drawn, ground units; 0: no size, not drawn */
 	double width, length;
+	double statistic;		 /* of the members' areas, unscaled */
 	double ratio;			 /* width / length; of the representative unless min_side changed it, 1 for squares */
 	double ux, uy;			 /* of the representative */
 	uint32_t representative; /* index into the caller's buildings */

@@ -1,0 +1,198 @@
+/*
+ * group_legible.c - the placeholders of a group as sites that are made legible.
+ *
+ * Where two are joined they become what one more collapse would have made of them: all members together, the vertex
+ * at the mean of their places, area and representative by the same rules. The ranks of the members of every
+ * placeholder are a list, ascending, so that two are one list after a walk along both.
+ */
+#include "group_internal.h"
+
+#include "legibility.h"
+
+#include <math.h>
+#include <string.h>
+
+#define NO_RANK UINT32_MAX
+
+typedef struct joining
+{
+	const ty_environment *env;
+	ty_group *group;
+	ty_result *result;
+	ty_site *sites;	   /* [result->count] */
+	uint32_t *first;   /* [result->count] smallest rank */
+	uint32_t *next;	   /* [n] rank, by rank */
+	uint32_t *members; /* [n] scratch: buildings */
+} joining;
+
+static ty_sides
+sides_of(ty_size size)
+{
+	return (ty_sides){size.width, size.length};
+}
+
+static ty_sides
+not_above(ty_sides sides, ty_sides limit)
+{
+	return (ty_sides){fmin(sides.width, limit.width), fmin(sides.length, limit.length)};
+}
+
+/* Without a minimum side nothing says how far a placeholder may be shrunk below its true size: not at all. */
+static void
+set_site(const joining *j, const ty_placeholder *p, ty_site *site)
+{
+	const ty_parameters *parameters = j->group->parameters;
+	const ty_building *b = &j->group->buildings[p->representative];
+	double ratio = parameters->shape == TY_SQUARE ? 1 : b->ratio;
+	ty_size own = ty_drawn_size(parameters, p->statistic, p->statistic, ratio, p->count);
+
+	*site = (ty_site){.home = {p->x, p->y}, .ux = p->ux, .uy = p->uy, .weight = p->count, .size = 2};
+	site->full = (ty_sides){p->width, p->length};
+	site->own = not_above(sides_of(own), site->full);
+	site->least = site->own;
+	if (parameters->min_side > 0)
+		site->least = not_above(sides_of(ty_least_size(parameters, ratio, p->count)), site->own);
+	site->state = p->area > 0 ? TY_DRAWN : TY_HIDDEN;
+}
+
+/* Makes one ascending list of two. */
+static uint32_t
+merge_lists(uint32_t *next, uint32_t a, uint32_t b)
+{
+	uint32_t head = a < b ? a : b, *end = &head;
+
+	while (a != NO_RANK && b != NO_RANK)
+	{
+		uint32_t *smaller = a < b ? &a : &b;
+
+		*end = *smaller;
+		end = &next[*smaller];
+		*smaller = *end;
+	}
+	*end = a != NO_RANK ? a : b;
+	return head;
+}
+
+/* The exact mean of the members' grid positions, halves up. */
+static ty_position
+mean_position(const joining *j, size_t count)
+{
+	const ty_group *g = j->group;
+	int64_t x = 0, y = 0, n = (int64_t) count;
+
+	for (size_t i = 0; i < count; i++)
+	{
+		const ty_building *b = &g->buildings[j->members[i]];
+		ty_position at = ty_grid_snap(&g->grid, b->x, b->y);
+
+		x += at.x;
+		y += at.y;
+	}
+	return (ty_position){(int32_t) ((2 * x + n) / (2 * n)), (int32_t) ((2 * y + n) / (2 * n))};
+}
+
+static ty_status
+join(void *context, uint32_t kept, uint32_t gone, ty_site *site)
+{
+	joining *j = context;
+	ty_placeholder *p = &j->result->placeholders[kept];
+	uint32_t rank = merge_lists(j->next, j->first[kept], j->first[gone]);
+	ty_status status;
+
+	j->first[kept] = rank;
+	p->first = p->count = 0;
+	for (uint32_t r = rank; r != NO_RANK; r = j->next[r])
+		j->members[p->count++] = j->group->order[r];
+	j->group->position[rank] = mean_position(j, p->count);
+	status = ty_describe(j->env, j->group, j->members, rank, p);
+	set_site(j, p, site);
+	return status;
+}
+
+/* The placeholder as its site has come to lie; one that nothing was done to stays what it is to the last bit. */
+static void
+take_over(ty_placeholder *p, const ty_site *site)
+{
+	ty_sides sides = ty_site_sides(site);
+
+	p->x += site->moved.x;
+	p->y += site->moved.y;
+	if (site->size < 2)
+	{
+		p->width = sides.width;
+		p->length = sides.length;
+		p->area = sides.width * sides.length;
+		p->ratio = sides.width / sides.length;
+	}
+	if (site->state == TY_HIDDEN)
+		p->area = p->width = p->length = 0;
+}
+
+/* Numbers those that are left, and labels and lists the members anew. */
+static ty_status
+renumber(const joining *j, uint32_t *label, size_t n)
+{
+	ty_result *result = j->result;
+	uint32_t *number = ty_allocate_array(j->env, result->count, sizeof *number), left = 0;
+
+	if (number == NULL)
+		return TY_NO_MEMORY;
+	result->undrawn = 0;
+	/* a site is joined to one with a smaller number, which has its new one by then */
+	for (size_t k = 0; k < result->count; k++)
+	{
+		if (j->sites[k].state == TY_JOINED)
+		{
+			number[k] = number[j->sites[k].into];
+			continue;
+		}
+		take_over(&result->placeholders[k], &j->sites[k]);
+		result->undrawn += !(result->placeholders[k].area > 0);
+		result->placeholders[left] = result->placeholders[k];
+		number[k] = left++;
+	}
+	for (size_t rank = 0; rank < n; rank++)
+		label[rank] = number[label[rank]];
+	result->count = left;
+	ty_list_members(label, j->group->order, n, result);
+	ty_release(j->env, number);
+	return TY_OK;
+}
+
+static ty_status
+prepare(joining *j, const uint32_t *label, size_t n)
+{
+	j->sites = ty_allocate_array(j->env, j->result->count, sizeof *j->sites);
+	j->first = ty_allocate_array(j->env, j->result->count, sizeof *j->first);
+	j->next = ty_allocate_array(j->env, n, sizeof *j->next);
+	j->members = ty_allocate_array(j->env, n, sizeof *j->members);
+	if (j->sites == NULL || j->first == NULL || j->next == NULL || j->members == NULL)
+		return TY_NO_MEMORY;
+	memset(j->first, 0xff, j->result->count * sizeof *j->first);
+	for (size_t rank = n; rank-- > 0;)
+	{
+		j->next[rank] = j->first[label[rank]];
+		j->first[label[rank]] = (uint32_t) rank;
+	}
+	for (size_t k = 0; k < j->result->count; k++)
+		set_site(j, &j->result->placeholders[k], &j->sites[k]);
+	return TY_OK;
+}
+
+ty_status
+ty_make_group_legible(const ty_environment *env, ty_group *g, uint32_t *label, size_t n, ty_result *result)
+{
+	joining j = {.env = env, .group = g, .result = result};
+	ty_legibility rules = {.gap = g->parameters->min_gap, .join = join, .context = &j};
+	ty_status status = prepare(&j, label, n);
+
+	if (status == TY_OK)
+		status = ty_make_legible(env, &rules, j.sites, result->count);
+	if (status == TY_OK)
+		status = renumber(&j, label, n);
+	ty_release(env, j.sites);
+	ty_release(env, j.first);
+	ty_release(env, j.next);
+	ty_release(env, j.members);
+	return status;
+}
