@@ -40,6 +40,7 @@ typedef struct ty_ladder
 	uint32_t *degree;		/* [n] in how many conflicts it is, while some are being resolved */
 	ty_conflict *conflicts; /* [conflict_count] */
 	size_t conflict_count, conflict_capacity;
+	double lacking; /* in this round, by all conflicts that were met */
 } ty_ladder;
 
 /* Whether the site is drawn. */

@@ -81,6 +81,8 @@ shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, doub
 
 /* ---- displacing ---- */
 
+#define STAGNANT 0.97 /* share of what was lacking a round before, above which another round is not worth its time */
+
 /* Moves the site, within its bound. How far it came along n. */
 static double
 displace(ty_ladder *l, uint32_t i, double distance, ty_point n)
@@ -113,6 +115,7 @@ push_apart(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point n)
 static void
 settle_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point n, bool below)
 {
+	l->lacking += lack;
 	lack = shrink_pair(l, a, b, lack, &n, 1);
 	if (lack > 0 && below)
 		lack = shrink_pair(l, a, b, lack, &n, 0);
@@ -143,9 +146,11 @@ ty_status
 ty_settle(ty_ladder *l, int rounds, bool below)
 {
 	ty_status status = TY_OK;
+	double before = INFINITY;
 
 	for (int round = 0; status == TY_OK && round < rounds && l->active_count > 0; round++)
 	{
+		l->lacking = 0;
 		for (size_t k = 0; status == TY_OK && k < l->active_count; k++)
 		{
 			if (ty_interrupted_at(l->env, k))
@@ -154,6 +159,9 @@ ty_settle(ty_ladder *l, int rounds, bool below)
 				status = settle_site(l, l->active[k], below);
 		}
 		ty_next_round(l);
+		if (l->lacking > STAGNANT * before)
+			break;
+		before = l->lacking;
 	}
 	return status;
 }
