@@ -40,7 +40,7 @@ COMMENT ON COLUMN typify_options.count_rule IS
 COMMENT ON COLUMN typify_options.area_statistic IS
 'What a placeholder takes from the areas of its members: mean (default, paper), median, or sum: their plain sum without the area factor.';
 COMMENT ON COLUMN typify_options.shape IS
-'rectangle (default, paper: ratio and direction of the representative), square (of equal area), footprint or auto (both not supported yet).';
+'rectangle (default, paper: ratio and direction of the representative), square (of equal area), footprint (the representative''s own outline, of several parts the largest, scaled to the area about its centroid; width and length are those of its minimum-area rectangle, which is drawn where the outline is no valid polygon) or auto (not supported yet).';
 COMMENT ON COLUMN typify_options.min_area IS
 'A smaller building adds nothing to count, position or mean. Square units of the SRID. Not supported yet, except 0 (off).';
 COMMENT ON COLUMN typify_options.min_side IS 

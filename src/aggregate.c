@@ -74,12 +74,22 @@ state_for_row(FunctionCallInfo fcinfo, MemoryContext context, const row_layout *
 	const ty_parameters *parameters = ty_call_parameters(call, &fcinfo->args[layout->parameters], s == NULL);
 
 	if (s == NULL)
-		s = ty_state_new(context, parameters, srid, ty_check_srid(&call->srids, srid));
+		s = ty_state_new(context, parameters, srid, ty_check_srid(&call->srids, srid), call->srids.geometry_type);
 	else if (unlikely(s->generation != call->generation) && !ty_same_parameters(&s->parameters, parameters))
 		ty_refuse_varying_parameters();
 	s->generation = call->generation;
 	ty_state_check_srid(s, srid);
 	return s;
+}
+
+/* The last building's outline, with which its placeholder may be drawn. */
+static void
+add_outline(ty_state *s, Datum geometry)
+{
+	MemoryContext old = MemoryContextSwitchTo(s->context);
+
+	ty_state_give_outline(s, ty_outline_datum(geometry));
+	MemoryContextSwitchTo(old);
 }
 
 /* Adds the row's building; a row without geometry is passed over, and nothing else of it looked at. */
@@ -102,9 +112,9 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 		ty_refuse_null("id");
 	building.id = layout->id != 0 ? PG_GETARG_INT64(layout->id) : 0;
 	check_importance(fcinfo, layout->importance);
-	if (unlikely(s->count == s->capacity))
-		ty_state_reserve(s, 1);
-	s->buildings[s->count++] = building;
+	ty_state_add(s, &building);
+	if (unlikely(ty_wants_outline(&s->parameters)))
+		add_outline(s, PG_GETARG_DATUM(1));
 	PG_RETURN_POINTER(s);
 }
 
@@ -117,11 +127,13 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 static void
 state_typify(const ty_state *s, ty_result *result)
 {
-	ty_input input = {.buildings = s->buildings, .n = s->count};
+	ty_input input = {.buildings = s->buildings, .n = s->count, .outlines = s->outlines};
 	ty_parameters parameters = s->parameters;
 
 	ty_bring_to_ground(&parameters, s->metres_per_unit);
 	ty_typify_group(&input, &parameters, result);
+	if (s->outlines != NULL)
+		ty_check_outlines(result, s->outlines, s->geometry_type);
 	if (s->count >= LARGE_GROUP)
 		ty_trim_memory();
 	if (result->undrawn > 0)
@@ -201,13 +213,21 @@ typedef struct row_writer
 	uint32 *unused;		/* as long, zero: what their sort moves along */
 } row_writer;
 
+/* of the polygon's value */
 static size_t
-array_size_bound(const ty_result *result)
+polygon_size(const ty_state *s, const ty_placeholder *placeholder)
+{
+	return placeholder->outlined ? ty_outline_polygon_size(s->outlines[placeholder->representative])
+								 : TY_POLYGON_DATUM_SIZE;
+}
+
+static size_t
+array_size_bound(const ty_state *s, const ty_result *result)
 {
 	size_t size = ARR_OVERHEAD_NONULLS(1);
 
 	for (size_t k = 0; k < result->count; k++)
-		size += ROW_OVERHEAD + TY_POLYGON_DATUM_SIZE + MEMBERS_SIZE(result->placeholders[k].count);
+		size += ROW_OVERHEAD + polygon_size(s, &result->placeholders[k]) + MEMBERS_SIZE(result->placeholders[k].count);
 	return size;
 }
 
@@ -226,7 +246,7 @@ static void
 writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result)
 {
 	Oid element = get_element_type(get_func_rettype(fcinfo->flinfo->fn_oid));
-	size_t size = array_size_bound(result);
+	size_t size = array_size_bound(s, result);
 	uint32 most = 0;
 
 	if (!AllocSizeIsValid(size))
@@ -276,6 +296,17 @@ writer_append(row_writer *writer, HeapTuple row)
 	writer->used += MAXALIGN(row->t_len);
 }
 
+/* An outline is new, a rectangle is overwritten by the next one. */
+static Datum
+writer_polygon(row_writer *writer, const ty_placeholder *placeholder)
+{
+	const ty_state *s = writer->group;
+
+	if (placeholder->outlined)
+		return PointerGetDatum(ty_outline_polygon(placeholder, s->outlines[placeholder->representative], s->srid));
+	return ty_write_rectangle(writer->polygon, placeholder, s->srid);
+}
+
 static void
 writer_add(row_writer *writer, const ty_placeholder *placeholder)
 {
@@ -285,7 +316,7 @@ writer_add(row_writer *writer, const ty_placeholder *placeholder)
 
 	writer->values[FIELD_ID] = Int64GetDatum(s->buildings[placeholder->representative].id);
 	writer->nulls[FIELD_GEOM] = !drawn;
-	writer->values[FIELD_GEOM] = drawn ? ty_write_rectangle(writer->polygon, placeholder, s->srid) : (Datum) 0;
+	writer->values[FIELD_GEOM] = drawn ? writer_polygon(writer, placeholder) : (Datum) 0;
 	writer->values[FIELD_MEMBER_COUNT] = Int32GetDatum((int32) placeholder->count);
 	writer->values[FIELD_MEMBERS] = writer_members(writer, placeholder);
 	writer->values[FIELD_AREA] = Float8GetDatum(placeholder->area);
@@ -295,6 +326,8 @@ writer_add(row_writer *writer, const ty_placeholder *placeholder)
 	row = heap_form_tuple(writer->shape, writer->values, writer->nulls);
 	writer_append(writer, row);
 	heap_freetuple(row);
+	if (drawn && placeholder->outlined)
+		pfree(DatumGetPointer(writer->values[FIELD_GEOM]));
 }
 
 static Datum
@@ -351,7 +384,7 @@ typify_combine(PG_FUNCTION_ARGS)
 	if (a == NULL && b == NULL)
 		PG_RETURN_NULL();
 	if (a == NULL)
-		a = ty_state_new(context, &b->parameters, b->srid, b->metres_per_unit);
+		a = ty_state_new(context, &b->parameters, b->srid, b->metres_per_unit, b->geometry_type);
 	if (b != NULL)
 		ty_state_merge(a, b);
 	PG_RETURN_POINTER(a);
@@ -385,7 +418,7 @@ typify_final(PG_FUNCTION_ARGS)
 	if (s == NULL)
 		PG_RETURN_NULL();
 	state_typify(s, &result);
-	collection = ty_collection_datum(&result, s->srid);
+	collection = ty_collection_datum(&result, s->outlines, s->srid);
 	ty_result_free(&ty_backend_environment, &result);
 	PG_RETURN_DATUM(collection);
 }

@@ -4,9 +4,11 @@
 #include <math.h>
 
 #include "common/hashfn.h"
+#include "miscadmin.h"
 #include "utils/memutils.h"
 
 #include "backend.h"
+#include "postgis.h"
 
 /* A geometry's bytes; the value itself where it is neither compressed nor stored elsewhere, else a copy. */
 typedef struct detoasted
@@ -162,6 +164,84 @@ ty_refuse_size(void)
 			errhint("Use GROUP BY to typify smaller groups, such as blocks or settlements."));
 }
 
+/* ---- outlines ---- */
+
+ty_outline *
+ty_outline_datum(Datum geometry)
+{
+	detoasted d = detoast(geometry);
+	ty_outline *outline = NULL;
+	ty_geometry_status status = ty_geometry_outline(&ty_backend_environment, d.payload, d.size, &outline);
+
+	check_geometry(status, &d, TY_GEOMETRY_POLYGON, NULL);
+	release(&d);
+	return outline;
+}
+
+/* A copy of the outline, so large that its rectangle is the placeholder's, and at that one's place. */
+static ty_outline *
+fitted_outline(const ty_outline *outline, const ty_placeholder *placeholder)
+{
+	size_t size = ty_outline_size(outline->rings, outline->points);
+	double factor = sqrt(placeholder->area / outline->area);
+	ty_point box = ty_outline_box_centre(outline, factor);
+	ty_outline *fitted = palloc(size);
+
+	memcpy(fitted, outline, size);
+	ty_outline_move(fitted, (ty_point){placeholder->x - box.x, placeholder->y - box.y}, factor);
+	return fitted;
+}
+
+size_t
+ty_outline_polygon_size(const ty_outline *outline)
+{
+	return VARHDRSZ + ty_outline_payload(outline);
+}
+
+static struct varlena *
+polygon_of_outline(const ty_outline *outline, int32 srid)
+{
+	size_t size = ty_outline_polygon_size(outline);
+	struct varlena *polygon = palloc(size);
+
+	SET_VARSIZE(polygon, size);
+	ty_geometry_write_outline((unsigned char *) VARDATA(polygon), srid, outline);
+	return polygon;
+}
+
+struct varlena *
+ty_outline_polygon(const ty_placeholder *placeholder, const ty_outline *outline, int32 srid)
+{
+	ty_outline *fitted = fitted_outline(outline, placeholder);
+	struct varlena *polygon = polygon_of_outline(fitted, srid);
+
+	pfree(fitted);
+	return polygon;
+}
+
+void
+ty_check_outlines(ty_result *result, ty_outline *const *outlines, Oid geometry_type)
+{
+	for (size_t i = 0; i < result->count; i++)
+	{
+		ty_placeholder *placeholder = &result->placeholders[i];
+		struct varlena *polygon;
+
+		CHECK_FOR_INTERRUPTS();
+		if (!placeholder->outlined)
+			continue;
+		polygon = polygon_of_outline(outlines[placeholder->representative], 0);
+		if (!ty_is_valid(PointerGetDatum(polygon), geometry_type))
+		{
+			placeholder->outlined = false;
+			placeholder->area = placeholder->width * placeholder->length;
+		}
+		pfree(polygon);
+	}
+}
+
+/* ---- collections ---- */
+
 static bool
 is_drawn(const ty_placeholder *placeholder)
 {
@@ -178,11 +258,23 @@ count_drawn(const ty_result *result)
 	return drawn;
 }
 
+static size_t
+collection_size(const ty_result *result, ty_outline *const *outlines, size_t drawn)
+{
+	size_t size = VARHDRSZ + TY_COLLECTION_PAYLOAD(drawn);
+
+	for (size_t i = 0; outlines != NULL && i < result->count; i++)
+		if (result->placeholders[i].outlined)
+			size += ty_outline_payload_in_collection(outlines[result->placeholders[i].representative]) -
+					TY_RECTANGLE_IN_COLLECTION;
+	return size;
+}
+
 Datum
-ty_collection_datum(const ty_result *result, int32 srid)
+ty_collection_datum(const ty_result *result, ty_outline *const *outlines, int32 srid)
 {
 	size_t drawn = count_drawn(result);
-	size_t size = VARHDRSZ + TY_COLLECTION_PAYLOAD(drawn);
+	size_t size = collection_size(result, outlines, drawn);
 	ty_collection_writer writer;
 	struct varlena *value;
 	ty_point ring[5];
@@ -194,9 +286,19 @@ ty_collection_datum(const ty_result *result, int32 srid)
 	ty_collection_begin(&writer, (unsigned char *) VARDATA(value), srid, (uint32_t) drawn);
 	for (size_t i = 0; i < result->count; i++)
 	{
-		if (!is_drawn(&result->placeholders[i]))
+		const ty_placeholder *placeholder = &result->placeholders[i];
+
+		if (!is_drawn(placeholder))
 			continue;
-		rectangle_ring(&result->placeholders[i], ring);
+		if (placeholder->outlined)
+		{
+			ty_outline *fitted = fitted_outline(outlines[placeholder->representative], placeholder);
+
+			ty_collection_add_outline(&writer, fitted);
+			pfree(fitted);
+			continue;
+		}
+		rectangle_ring(placeholder, ring);
 		ty_collection_add(&writer, ring);
 	}
 	ty_collection_end(&writer);

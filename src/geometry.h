@@ -22,13 +22,32 @@ extern bool ty_point_datum(Datum geometry, const char *argument, ty_point *point
 /* Whether a geometry of any type has any point. */
 extern bool ty_geometry_datum_has_points(Datum geometry);
 
+/*
+ * The outline of a POLYGON or of the largest polygon of a MULTIPOLYGON, in the current context; NULL for what cannot
+ * be drawn with one. The geometry has been measured before.
+ */
+extern ty_outline *ty_outline_datum(Datum geometry);
+
 #define TY_POLYGON_DATUM_SIZE (VARHDRSZ + TY_POLYGON_PAYLOAD)
 
 /* Writes a placeholder's rectangle as a POLYGON value into memory of TY_POLYGON_DATUM_SIZE bytes. */
 extern Datum ty_write_rectangle(void *memory, const ty_placeholder *placeholder, int32 srid);
 
-/* The drawn placeholders as a GEOMETRYCOLLECTION in the current context; an error when it would exceed 1 GB. */
-extern Datum ty_collection_datum(const ty_result *result, int32 srid);
+/* An outline as it is drawn for a placeholder, as a POLYGON in the current context; how many bytes that takes. */
+extern struct varlena *ty_outline_polygon(const ty_placeholder *placeholder, const ty_outline *outline, int32 srid);
+extern size_t ty_outline_polygon_size(const ty_outline *outline);
+
+/*
+ * Placeholders whose outline (outlines: of the group's buildings) is no valid polygon are drawn as the rectangle
+ * around it instead.
+ */
+extern void ty_check_outlines(ty_result *result, ty_outline *const *outlines, Oid geometry_type);
+
+/*
+ * The drawn placeholders as a GEOMETRYCOLLECTION in the current context; an error when it would exceed 1 GB. outlines:
+ * of the group's buildings, or NULL.
+ */
+extern Datum ty_collection_datum(const ty_result *result, ty_outline *const *outlines, int32 srid);
 
 /* The error of all results that a value cannot hold. */
 extern _Noreturn void ty_refuse_size(void);

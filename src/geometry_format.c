@@ -369,6 +369,111 @@ ty_geometry_read(const ty_environment *env, const unsigned char *payload, size_t
 	return status_of(status);
 }
 
+/* ---- outlines ---- */
+
+/* The points of all rings of a polygon whose number of rings has been read; the cursor stays. */
+static bool
+count_polygon(cursor c, uint32_t rings, size_t *count)
+{
+	const unsigned char *sizes, *points;
+
+	*count = 0;
+	if (!take_ring_sizes(&c, rings, &sizes))
+		return false;
+	for (uint32_t ring = 0; ring < rings; ring++)
+	{
+		if (!take_points(&c, ring_size(sizes, ring), &points))
+			return false;
+		*count += ring_size(sizes, ring);
+	}
+	return *count <= UINT32_MAX;
+}
+
+/* Copies a polygon into an outline that has room for it, and moves the cursor behind it. */
+static bool
+copy_polygon(cursor *c, uint32_t rings, ty_outline *outline)
+{
+	const unsigned char *sizes, *points;
+	ty_point *to;
+
+	outline->rings = rings;
+	to = ty_outline_points(outline);
+	if (!take_ring_sizes(c, rings, &sizes))
+		return false;
+	for (uint32_t ring = 0; ring < rings; ring++)
+	{
+		uint32_t n = ring_size(sizes, ring);
+
+		ty_outline_ring_sizes(outline)[ring] = n;
+		if (!take_points(c, n, &points))
+			return false;
+		for (uint32_t i = 0; i < n; i++)
+			memcpy(to++, points + i * c->stride, sizeof(ty_point));
+	}
+	outline->points = (uint32_t) (to - ty_outline_points(outline));
+	return true;
+}
+
+/* The outline of the polygon at the cursor, which is moved behind it; NULL where it cannot be drawn. */
+static ty_geometry_status
+take_outline(const ty_environment *env, cursor *c, uint32_t rings, ty_outline **outline)
+{
+	bool drawable = false;
+	size_t points, size;
+	ty_status status;
+
+	*outline = NULL;
+	if (!count_polygon(*c, rings, &points))
+		return TY_GEOMETRY_CORRUPT;
+	size = ty_outline_size(rings, points);
+	*outline = size == 0 ? NULL : ty_allocate_array(env, size, 1);
+	if (*outline == NULL)
+		return TY_GEOMETRY_NO_MEMORY;
+	status = copy_polygon(c, rings, *outline) && rings > 0 && *ty_outline_ring_sizes(*outline) > 0
+				 ? ty_outline_measure(env, *outline, &drawable)
+				 : TY_OK;
+	if (!drawable)
+	{
+		ty_release(env, *outline);
+		*outline = NULL;
+	}
+	return status_of(status);
+}
+
+ty_geometry_status
+ty_geometry_outline(const ty_environment *env, const unsigned char *payload, size_t size, ty_outline **outline)
+{
+	ty_geometry_status status = TY_GEOMETRY_OK;
+	uint32_t type, count, part_type, rings;
+	ty_outline *found;
+	int32_t srid;
+	cursor c;
+
+	*outline = NULL;
+	if (!open_payload(payload, size, &c, &srid) || !take_type_and_count(&c, &type, &count))
+		return TY_GEOMETRY_CORRUPT;
+	if (type == TY_GEOMETRY_POLYGON)
+		return take_outline(env, &c, count, outline);
+	if (type != TY_GEOMETRY_MULTIPOLYGON)
+		return TY_GEOMETRY_OK;
+	for (uint32_t part = 0; part < count && status == TY_GEOMETRY_OK; part++)
+	{
+		if (!take_type_and_count(&c, &part_type, &rings) || part_type != TY_GEOMETRY_POLYGON)
+			return TY_GEOMETRY_CORRUPT;
+		status = take_outline(env, &c, rings, &found);
+		if (found != NULL && (*outline == NULL || found->area > (*outline)->area))
+		{
+			ty_release(env, *outline);
+			*outline = found;
+		}
+		else
+			ty_release(env, found);
+	}
+	return status;
+}
+
+/* ---- types and writing ---- */
+
 const char *
 ty_geometry_type_name(uint32_t type)
 {
@@ -423,15 +528,55 @@ put_polygon(unsigned char **at, const ty_point ring[5])
 }
 
 static void
-widen_box(ty_point *low, ty_point *high, const ty_point ring[5])
+widen_box(ty_point *low, ty_point *high, const ty_point *point, size_t n)
 {
-	for (int i = 0; i < RING_POINTS; i++)
+	for (size_t i = 0; i < n; i++)
 	{
-		low->x = fmin(low->x, ring[i].x);
-		low->y = fmin(low->y, ring[i].y);
-		high->x = fmax(high->x, ring[i].x);
-		high->y = fmax(high->y, ring[i].y);
+		low->x = fmin(low->x, point[i].x);
+		low->y = fmin(low->y, point[i].y);
+		high->x = fmax(high->x, point[i].x);
+		high->y = fmax(high->y, point[i].y);
 	}
+}
+
+size_t
+ty_outline_payload_in_collection(const ty_outline *outline)
+{
+	size_t entries = (size_t) outline->rings + outline->rings % 2;
+
+	return (2 + entries) * sizeof(uint32_t) + outline->points * sizeof(ty_point);
+}
+
+size_t
+ty_outline_payload(const ty_outline *outline)
+{
+	return HEADER_SIZE + BOX_SIZE + ty_outline_payload_in_collection(outline);
+}
+
+static void
+put_outline(unsigned char **at, const ty_outline *outline)
+{
+	put_number(at, TY_GEOMETRY_POLYGON);
+	put_number(at, outline->rings);
+	for (uint32_t ring = 0; ring < outline->rings; ring++)
+		put_number(at, ty_outline_ring_sizes(outline)[ring]);
+	if (outline->rings % 2 == 1)
+		put_number(at, 0); /* padding */
+	memcpy(*at, ty_outline_points(outline), outline->points * sizeof(ty_point));
+	*at += outline->points * sizeof(ty_point);
+}
+
+void
+ty_geometry_write_outline(unsigned char *payload, int32_t srid, const ty_outline *outline)
+{
+	unsigned char *at = payload + HEADER_SIZE + BOX_SIZE;
+	const ty_point *point = ty_outline_points(outline);
+	ty_point low = point[0], high = point[0];
+
+	widen_box(&low, &high, point, *ty_outline_ring_sizes(outline));
+	pack_header(payload, srid, FLAG_VERSION_2 | FLAG_BOX);
+	put_box(payload + HEADER_SIZE, low, high);
+	put_outline(&at, outline);
 }
 
 void
@@ -440,7 +585,7 @@ ty_geometry_write_polygon(unsigned char *payload, int32_t srid, const ty_point r
 	unsigned char *at = payload + HEADER_SIZE + BOX_SIZE;
 	ty_point low = ring[0], high = ring[0];
 
-	widen_box(&low, &high, ring);
+	widen_box(&low, &high, ring, RING_POINTS);
 	pack_header(payload, srid, FLAG_VERSION_2 | FLAG_BOX);
 	put_box(payload + HEADER_SIZE, low, high);
 	put_polygon(&at, ring);
@@ -464,8 +609,15 @@ ty_collection_begin(ty_collection_writer *writer, unsigned char *payload, int32_
 void
 ty_collection_add(ty_collection_writer *writer, const ty_point ring[5])
 {
-	widen_box(&writer->low, &writer->high, ring);
+	widen_box(&writer->low, &writer->high, ring, RING_POINTS);
 	put_polygon(&writer->at, ring);
+}
+
+void
+ty_collection_add_outline(ty_collection_writer *writer, const ty_outline *outline)
+{
+	widen_box(&writer->low, &writer->high, ty_outline_points(outline), *ty_outline_ring_sizes(outline));
+	put_outline(&writer->at, outline);
 }
 
 void

@@ -13,6 +13,7 @@
 
 #include "core/environment.h"
 #include "core/measure.h"
+#include "core/outline.h"
 
 typedef enum ty_geometry_status
 {
@@ -51,20 +52,37 @@ ty_geometry_status ty_geometry_has_points(const unsigned char *payload, size_t s
  */
 bool ty_geometry_find_not_finite(const unsigned char *payload, size_t size, double *value);
 
+/*
+ * The outline of a POLYGON, or of the largest polygon, the first of equals, of a MULTIPOLYGON: *outline, to be given
+ * back with ty_release; NULL where there is none that could be drawn. The geometry has been read before.
+ */
+ty_geometry_status ty_geometry_outline(const ty_environment *env, const unsigned char *payload, size_t size,
+									   ty_outline **outline);
+
 /* "Polygon" for 3 and so on; "unknown" for numbers that PostGIS does not use */
 const char *ty_geometry_type_name(uint32_t type);
 
 /* payload sizes of what the writers write */
 #define TY_POLYGON_PAYLOAD ((size_t) 116)
-#define TY_COLLECTION_PAYLOAD(polygons) ((polygons) == 0 ? (size_t) 12 : 28 + (size_t) 96 * (polygons))
+#define TY_RECTANGLE_IN_COLLECTION ((size_t) 96)
+#define TY_COLLECTION_PAYLOAD(polygons) \
+	((polygons) == 0 ? (size_t) 12 : 28 + TY_RECTANGLE_IN_COLLECTION * (size_t) (polygons))
+
+size_t ty_outline_payload(const ty_outline *outline);				/* of a POLYGON */
+size_t ty_outline_payload_in_collection(const ty_outline *outline); /* of it as a member of a collection */
+
+/* An outline as a POLYGON. payload: ty_outline_payload(outline) bytes, at any alignment. */
+void ty_geometry_write_outline(unsigned char *payload, int32_t srid, const ty_outline *outline);
 
 /* A POLYGON of one closed ring of five points. payload: TY_POLYGON_PAYLOAD bytes, at any alignment. */
 void ty_geometry_write_polygon(unsigned char *payload, int32_t srid, const ty_point ring[5]);
 
 /*
- * A GEOMETRYCOLLECTION of such polygons, written one after the other:
+ * A GEOMETRYCOLLECTION of such polygons and of outlines, written one after the other. It takes
+ * TY_COLLECTION_PAYLOAD(polygons) bytes where all are such polygons; an outline takes
+ * ty_outline_payload_in_collection bytes in place of TY_RECTANGLE_IN_COLLECTION.
  *
- *     ty_collection_begin(&writer, payload, srid, polygons);	// TY_COLLECTION_PAYLOAD(polygons) bytes
+ *     ty_collection_begin(&writer, payload, srid, polygons);
  *     ty_collection_add(&writer, ring); ...					// as often as said
  *     ty_collection_end(&writer);
  */
@@ -77,6 +95,7 @@ typedef struct ty_collection_writer
 
 void ty_collection_begin(ty_collection_writer *writer, unsigned char *payload, int32_t srid, uint32_t polygons);
 void ty_collection_add(ty_collection_writer *writer, const ty_point ring[5]);
+void ty_collection_add_outline(ty_collection_writer *writer, const ty_outline *outline);
 void ty_collection_end(ty_collection_writer *writer);
 
 #endif

@@ -88,7 +88,7 @@ static const option_entry entries[OPTIONS] = {
 	 .kind = WORD,
 	 .words = {"rectangle", "square", "footprint", "auto"},
 	 .choice = "rectangle, square, footprint or auto",
-	 .built_words = 2},
+	 .built_words = 3},
 	{.name = "min_area", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
 	{.name = "min_side", .kind = NUMBER_FROM_0},
 	{.name = "max_area", .kind = NUMBER_FROM_0},

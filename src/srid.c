@@ -35,8 +35,8 @@ ty_srid_cache_begin(ty_srid_cache *cache, Oid function, int argument, MemoryCont
 	cache->count = cache->capacity = 0;
 }
 
-static Oid
-schema_of_type(Oid type)
+Oid
+ty_schema_of_type(Oid type)
 {
 	HeapTuple tuple = SearchSysCache1(TYPEOID, ObjectIdGetDatum(type));
 	Oid schema;
@@ -227,7 +227,7 @@ crs_of_srid(Relation relation, AttrNumber column, int32 srid, int32 *named)
 static crs
 look_up(Oid geometry_type, int32 srid)
 {
-	Oid table = get_relname_relid("spatial_ref_sys", schema_of_type(geometry_type));
+	Oid table = get_relname_relid("spatial_ref_sys", ty_schema_of_type(geometry_type));
 	AttrNumber column = OidIsValid(table) ? get_attnum(table, "srid") : InvalidAttrNumber;
 	Relation relation;
 	crs found = {CRS_UNKNOWN, 1};

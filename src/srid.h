@@ -34,4 +34,7 @@ extern double ty_check_srid(ty_srid_cache *cache, int32 srid);
 
 extern _Noreturn void ty_refuse_two_srids(int32 a, int32 b);
 
+/* of a type that is there */
+extern Oid ty_schema_of_type(Oid type);
+
 #endif

@@ -14,25 +14,27 @@
 #define FIRST_SIZE 512
 
 /*
- * A state as it travels between the processes of one parallel query: this header, then the buildings. Both sides
- * run the same library on the same machine, so values are copied as they are.
+ * A state as it travels between the processes of one parallel query: this header, then the buildings, then the
+ * outlines, each behind the number of its building. Both sides run the same library on the same machine, so values
+ * are copied as they are.
  */
 typedef struct state_image
 {
 	uint32 magic;
 	uint32 building_size;
 	int32 srid;
-	uint32 unused;
-	uint64 count;
+	Oid geometry_type;
+	uint64 count, outlines;
 	double metres_per_unit;
 	ty_parameters parameters;
 } state_image;
 
-#define STATE_MAGIC 0x54590002 /* the last byte is the version */
+#define STATE_MAGIC 0x54590003 /* the last byte is the version */
 
 /* Makes an empty state in the context. */
 ty_state *
-ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid, double metres_per_unit)
+ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid, double metres_per_unit,
+			 Oid geometry_type)
 {
 	ty_state *s = MemoryContextAlloc(context, sizeof(ty_state));
 
@@ -41,8 +43,10 @@ ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid,
 	s->generation = 0;
 	s->srid = srid;
 	s->metres_per_unit = metres_per_unit;
+	s->geometry_type = geometry_type;
 	s->count = s->capacity = 0;
 	s->buildings = NULL;
+	s->outlines = NULL;
 	return s;
 }
 
@@ -63,6 +67,120 @@ ty_state_reserve(ty_state *s, size_t more)
 	else
 		s->buildings = repalloc_huge(s->buildings, size);
 	s->capacity = size / sizeof(ty_building);
+	if (s->outlines != NULL)
+		s->outlines = repalloc_huge(s->outlines, s->capacity * sizeof(ty_outline *));
+}
+
+/* --- outlines --- */
+
+/* Sets the outlines of the buildings from number `from` on to none. */
+static void
+clear_outlines(ty_state *s, size_t from)
+{
+	for (size_t i = from; i < s->count; i++)
+		s->outlines[i] = NULL;
+}
+
+/* From now on every building has an outline or none. */
+static void
+begin_outlines(ty_state *s)
+{
+	if (s->outlines != NULL)
+		return;
+	s->outlines = MemoryContextAllocHuge(s->context, s->capacity * sizeof(ty_outline *));
+	clear_outlines(s, 0);
+}
+
+void
+ty_state_give_outline(ty_state *s, ty_outline *outline)
+{
+	if (outline == NULL)
+		return;
+	begin_outlines(s);
+	s->outlines[s->count - 1] = outline;
+}
+
+static size_t
+outline_bytes(const ty_outline *outline)
+{
+	return ty_outline_size(outline->rings, outline->points);
+}
+
+/* Puts a copy of the outline into the state's context. */
+static ty_outline *
+copy_outline(const ty_state *s, const ty_outline *outline)
+{
+	ty_outline *copy = MemoryContextAllocHuge(s->context, outline_bytes(outline));
+
+	memcpy(copy, outline, outline_bytes(outline));
+	return copy;
+}
+
+/* How many outlines a state has, and what they take as they travel. */
+static size_t
+count_outlines(const ty_state *s, size_t *bytes)
+{
+	size_t count = 0;
+
+	*bytes = 0;
+	for (size_t i = 0; s->outlines != NULL && i < s->count; i++)
+		if (s->outlines[i] != NULL)
+		{
+			count++;
+			*bytes += sizeof(uint64) + outline_bytes(s->outlines[i]);
+		}
+	return count;
+}
+
+static void
+write_outlines(const ty_state *s, char *at)
+{
+	for (size_t i = 0; s->outlines != NULL && i < s->count; i++)
+		if (s->outlines[i] != NULL)
+		{
+			uint64 building = i;
+
+			memcpy(at, &building, sizeof(building));
+			memcpy(at + sizeof(building), s->outlines[i], outline_bytes(s->outlines[i]));
+			at += sizeof(building) + outline_bytes(s->outlines[i]);
+		}
+}
+
+/* False when the bytes are not what write_outlines wrote. */
+static bool
+read_outlines(ty_state *s, size_t count, const char *at, size_t left)
+{
+	if (count > 0)
+		begin_outlines(s);
+	for (; count > 0; count--)
+	{
+		ty_outline head;
+		uint64 building;
+		size_t size;
+
+		if (left < sizeof(building) + sizeof(head))
+			return false;
+		memcpy(&building, at, sizeof(building));
+		memcpy(&head, at + sizeof(building), sizeof(head));
+		size = outline_bytes(&head);
+		left -= sizeof(building);
+		if (building >= s->count || size == 0 || size > left)
+			return false;
+		s->outlines[building] = MemoryContextAllocHuge(s->context, size);
+		memcpy(s->outlines[building], at + sizeof(building), size);
+		at += sizeof(building) + size;
+		left -= size;
+	}
+	return left == 0;
+}
+
+/* --- joining and travelling --- */
+
+void
+ty_state_check_srid(const ty_state *s, int32 srid)
+{
+	if (unlikely(s->srid != srid))
+		ty_refuse_two_srids(s->srid, srid);
 }
 
 static void
@@ -71,13 +189,8 @@ ty_state_append(ty_state *s, const ty_building *buildings, size_t count)
 	ty_state_reserve(s, count);
 	memcpy(s->buildings + s->count, buildings, count * sizeof(ty_building));
 	s->count += count;
-}
-
-void
-ty_state_check_srid(const ty_state *s, int32 srid)
-{
-	if (unlikely(s->srid != srid))
-		ty_refuse_two_srids(s->srid, srid);
+	if (s->outlines != NULL)
+		clear_outlines(s, s->count - count);
 }
 
 /* Appends a copy of what b holds; b stays as it is. */
@@ -88,13 +201,20 @@ ty_state_merge(ty_state *a, const ty_state *b)
 	if (!ty_same_parameters(&a->parameters, &b->parameters))
 		ty_refuse_varying_parameters();
 	ty_state_append(a, b->buildings, b->count);
+	if (b->outlines == NULL)
+		return;
+	begin_outlines(a);
+	for (size_t i = 0; i < b->count; i++)
+		if (b->outlines[i] != NULL)
+			a->outlines[a->count - b->count + i] = copy_outline(a, b->outlines[i]);
 }
 
 /* In the current context; an error where a bytea cannot hold it. */
 bytea *
 ty_state_serialize(const ty_state *s)
 {
-	size_t size = VARHDRSZ + sizeof(state_image) + s->count * sizeof(ty_building);
+	size_t outlines_size, outlines = count_outlines(s, &outlines_size);
+	size_t size = VARHDRSZ + sizeof(state_image) + s->count * sizeof(ty_building) + outlines_size;
 	state_image image;
 	bytea *value;
 
@@ -107,33 +227,44 @@ ty_state_serialize(const ty_state *s)
 	image.building_size = sizeof(ty_building);
 	image.srid = s->srid;
 	image.count = s->count;
+	image.outlines = outlines;
 	image.metres_per_unit = s->metres_per_unit;
+	image.geometry_type = s->geometry_type;
 	image.parameters = s->parameters;
 	value = palloc(size);
 	SET_VARSIZE(value, size);
 	memcpy(VARDATA(value), &image, sizeof(image));
 	memcpy(VARDATA(value) + sizeof(image), s->buildings, s->count * sizeof(ty_building));
+	write_outlines(s, VARDATA(value) + sizeof(image) + s->count * sizeof(ty_building));
 	return value;
 }
 
 /* Makes the state in the current context; nothing of the value is kept. */
+static void
+refuse_image(void)
+{
+	ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION),
+			errmsg("a typify state is from another version, or broken"));
+}
+
 ty_state *
 ty_state_deserialize(bytea *value)
 {
-	size_t size = VARSIZE_ANY_EXHDR(value);
+	size_t size = VARSIZE_ANY_EXHDR(value), buildings_size;
+	const char *buildings = VARDATA_ANY(value) + sizeof(state_image);
 	state_image image;
 	ty_state *s;
 
 	if (size < sizeof(image))
 		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION), errmsg("a typify state is truncated"));
 	memcpy(&image, VARDATA_ANY(value), sizeof(image));
+	buildings_size = image.count * sizeof(ty_building);
 	if (image.magic != STATE_MAGIC || image.building_size != sizeof(ty_building) || image.count == 0 ||
-		image.count > TY_MAX_VERTICES || size - sizeof(image) != image.count * sizeof(ty_building))
-		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION),
-				errmsg("a typify state is from another version, or broken"));
-	s = ty_state_new(CurrentMemoryContext, &image.parameters, image.srid, image.metres_per_unit);
-	ty_state_reserve(s, image.count);
-	memcpy(s->buildings, VARDATA_ANY(value) + sizeof(image), image.count * sizeof(ty_building));
-	s->count = image.count;
+		image.count > TY_MAX_VERTICES || size - sizeof(image) < buildings_size)
+		refuse_image();
+	s = ty_state_new(CurrentMemoryContext, &image.parameters, image.srid, image.metres_per_unit, image.geometry_type);
+	ty_state_append(s, (const ty_building *) buildings, image.count);
+	if (!read_outlines(s, image.outlines, buildings + buildings_size, size - sizeof(image) - buildings_size))
+		refuse_image();
 	return s;
 }

@@ -125,7 +125,7 @@ typify_gathered(gathering *g, ty_result *result)
 	if (g->count > 0)
 	{
 		ty_bring_to_ground(&g->parameters, g->metres_per_unit);
-		ty_typify_group(&(ty_input){g->buildings, g->count}, &g->parameters, result);
+		ty_typify_group(&(ty_input){.buildings = g->buildings, .n = g->count}, &g->parameters, result);
 	}
 	pfree(g->buildings);
 }

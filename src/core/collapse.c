@@ -1,8 +1,6 @@
 /* collapse.c - see collapse.h. The order of the edges is collapse_queue.c's, hubs are collapse_batch.c's. */
 #include "collapse_internal.h"
 
-#include <math.h>
-
 #define POLL_INTERVAL 512 /* merges between two looks for an interrupt: about a millisecond */
 
 /* ---- merging ---- */
@@ -61,49 +59,43 @@ mean(int64_t sum, uint32_t count)
 	return (int32_t) ((2 * sum + count) / (2 * (int64_t) count));
 }
 
-static sum
-sum_of_both(const ty_run *run, uint32_t a, uint32_t b)
-{
-	sum s = sum_of(run, a, run->vertex[a].position), t = sum_of(run, b, run->vertex[b].position);
-
-	return (sum){s.x + t.x, s.y + t.y};
-}
-
 ty_position
 ty_merged_place(const ty_run *run, uint32_t a, uint32_t b)
 {
-	sum s = sum_of_both(run, a, b);
-	uint32_t size = run->vertex[a].size + run->vertex[b].size;
+	sum s, t;
+	uint32_t size;
 
-	return (ty_position){mean(s.x, size), mean(s.y, size)};
-}
-
-ty_position
-ty_join(ty_run *run, uint32_t kept, uint32_t gone)
-{
-	sum s = sum_of_both(run, kept, gone);
-	ty_position to = ty_merged_place(run, kept, gone);
-
-	run->vertex[kept].size += run->vertex[gone].size;
-	run->rest[kept] = rest_of(s, run->vertex[kept].size, to);
-	return to;
+	if (__builtin_expect(run->importance != NULL, 0))
+		return ty_weighted_place(run, a, b);
+	s = sum_of(run, a, run->vertex[a].position);
+	t = sum_of(run, b, run->vertex[b].position);
+	size = run->vertex[a].size + run->vertex[b].size;
+	return (ty_position){mean(s.x + t.x, size), mean(s.y + t.y, size)};
 }
 
 void
-ty_part(ty_run *run, uint32_t kept, uint32_t gone, ty_position merged, ty_position former)
+ty_join(ty_run *run, uint32_t kept, uint32_t gone, ty_position former, ty_position to)
 {
-	sum s = sum_of(run, kept, merged), t = sum_of(run, gone, run->vertex[gone].position);
+	if (__builtin_expect(run->importance != NULL, 0))
+		ty_join_weighted(run, kept, gone, former, to);
+	else
+	{
+		sum s = sum_of(run, kept, former), t = sum_of(run, gone, run->vertex[gone].position);
 
-	run->vertex[kept].size -= run->vertex[gone].size;
-	run->rest[kept] = rest_of((sum){s.x - t.x, s.y - t.y}, run->vertex[kept].size, former);
+		run->rest[kept] = rest_of((sum){s.x + t.x, s.y + t.y}, run->vertex[kept].size + run->vertex[gone].size, to);
+	}
+	if (__builtin_expect(run->row != NULL, 0))
+		ty_join_rows(run, kept, gone);
+	run->vertex[kept].size += run->vertex[gone].size;
 }
 
-/* Joins and records; returns the merged place. */
+/* Joins and records; returns the merged place, which the mesh has still to move the kept vertex to. */
 static ty_position
 merge(ty_run *run, uint32_t kept, uint32_t gone, double cost)
 {
-	ty_position to = ty_join(run, kept, gone);
+	ty_position to = ty_merged_place(run, kept, gone);
 
+	ty_join(run, kept, gone, run->vertex[kept].position, to);
 	ty_record(run, gone, cost);
 	return to;
 }
@@ -157,7 +149,9 @@ count_coincident(const uint64_t *keys, size_t n)
 
 /*
  * Merges vertices that share a place from the start: each run of equal positions in turn, at cost 0, until
- * count vertices are left. Lists one vertex of every place, and its key at the front of keys.
+ * count vertices are left. Lists one vertex of every place, and its key at the front of keys. Of several kept vertices
+ * at a place the first takes in all others that are not kept. The rest stay as they are, and outside of the mesh: a
+ * kept vertex never moves, so the first holds the place for ever, and whoever comes there is merged with it.
  */
 static ty_status
 merge_coincident(ty_run *run, size_t count, uint32_t *distinct, uint64_t *keys, size_t *distinct_count)
@@ -170,6 +164,8 @@ merge_coincident(ty_run *run, size_t count, uint32_t *distinct, uint64_t *keys, 
 			return TY_INTERRUPTED;
 		if (v > 0 && keys[places - 1] == keys[v] && run->n - run->sequence->count > count)
 		{
+			if (ty_both_kept(run, distinct[places - 1], (uint32_t) v))
+				continue;
 			merge(run, distinct[places - 1], (uint32_t) v, 0);
 			ty_retire(run, distinct[places - 1], (uint32_t) v);
 			ty_show(run, NULL);
@@ -187,10 +183,19 @@ merge_coincident(ty_run *run, size_t count, uint32_t *distinct, uint64_t *keys, 
 /*
  * Whether two vertices are nearer than the minimum distance. The nearest neighbour of a vertex is a Delaunay
  * neighbour, and vertices do not move: one that has been found to have none so near need not be looked at
- * again unless a new vertex appears, which is then looked at itself.
+ * again unless a new vertex appears, which is then looked at itself. Where influences forbid edges the nearest
+ * that may be collapsed can become a neighbour later: then vertices with new edges are looked at as well.
  */
 static bool
-is_too_near(const ty_run *run, uint32_t v, double min_distance)
+is_too_short(const ty_run *run, uint32_t v, uint32_t w)
+{
+	double length = sqrt((double) ty_squared_distance(run->vertex[v].position, run->vertex[w].position));
+
+	return length < run->min_distance && !ty_both_kept(run, v, w) && !ty_is_barred(run, v, w);
+}
+
+static bool
+is_too_near(const ty_run *run, uint32_t v)
 {
 	uint32_t first = run->vertex[v].edge, h = first;
 
@@ -200,21 +205,20 @@ is_too_near(const ty_run *run, uint32_t v, double min_distance)
 	{
 		uint32_t w = ty_target(&run->mesh, h);
 
-		if (w != TY_GHOST &&
-			sqrt((double) ty_squared_distance(run->vertex[v].position, run->vertex[w].position)) < min_distance)
+		if (w != TY_GHOST && is_too_short(run, v, w))
 			return true;
 	} while ((h = ty_next_around(&run->mesh, h)) != first);
 	return false;
 }
 
 static bool
-too_near(ty_run *run, double min_distance)
+too_near(ty_run *run)
 {
 	for (; run->near_count > 0; run->near_count--)
-		if (is_too_near(run, run->near[run->near_count - 1], min_distance))
+		if (is_too_near(run, run->near[run->near_count - 1]))
 			return true;
 	for (; run->near_first < run->n; run->near_first++)
-		if (is_too_near(run, (uint32_t) run->near_first, min_distance))
+		if (is_too_near(run, (uint32_t) run->near_first))
 			return true;
 	return false;
 }
@@ -236,6 +240,13 @@ push_near(ty_run *run, uint32_t v)
 	return TY_OK;
 }
 
+/* A vertex from near_first on need not be remembered: its turn is still to come. */
+ty_status
+ty_look_near(ty_run *run, uint32_t a, uint32_t b)
+{
+	return a < run->near_first && b < run->near_first && is_too_short(run, a, b) ? push_near(run, a) : TY_OK;
+}
+
 /* ---- the loop ---- */
 
 /* how few vertices may be left in the end */
@@ -249,7 +260,7 @@ least_vertices(ty_stop stop)
 static bool
 goes_on(ty_run *run, ty_stop stop)
 {
-	return run->n - run->sequence->count > stop.count || (stop.min_distance > 0 && too_near(run, stop.min_distance));
+	return run->n - run->sequence->count > stop.count || (stop.min_distance > 0 && too_near(run));
 }
 
 ty_status
@@ -342,7 +353,7 @@ prepare_mesh(ty_run *run, uint64_t *keys, ty_stop stop)
 	status = reserve_sequence(run, count_coincident(keys, run->n));
 	if (status == TY_OK)
 		status = merge_coincident(run, least, distinct, keys, &places);
-	if (status == TY_OK && run->n - run->sequence->count > least)
+	if (status == TY_OK && run->n - run->sequence->count > least && places > 1)
 	{
 		status = ty_mesh_build(run->env, run->vertex, run->n, distinct, keys, places, &run->mesh);
 		run->mesh.edge_made = ty_cover_edge;
@@ -416,15 +427,17 @@ free_run(ty_run *run)
 	free_mesh_and_queue(run);
 	ty_release(run->env, run->vertex);
 	ty_release(run->env, run->near);
+	ty_influence_free(run);
 }
 
 ty_status
-ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s_u, ty_stop stop, bool with_cost,
-			ty_after_merge after_merge, void *context, ty_sequence *sequence)
+ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s_u, const ty_influence *influence,
+			ty_stop stop, bool with_cost, ty_after_merge after_merge, void *context, ty_sequence *sequence)
 {
 	ty_run run = {.env = env,
 				  .n = n,
 				  .s_u = s_u,
+				  .min_distance = stop.min_distance,
 				  .with_cost = with_cost,
 				  .sequence = sequence,
 				  .after_merge = after_merge,
@@ -437,6 +450,8 @@ ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s
 	if (n > least_vertices(stop))
 	{
 		status = allocate_run(&run, position, stop.min_distance > 0);
+		if (status == TY_OK && influence != NULL)
+			status = ty_influence_begin(&run, influence);
 		if (status == TY_OK)
 			status = prepare(&run, stop);
 		if (status == TY_OK && run.mesh.env != NULL)

@@ -9,12 +9,13 @@
 #define TY_COLLAPSE_H
 
 #include "environment.h"
+#include "influence.h"
 #include "mesh.h"
 
 typedef struct ty_stop
 {
 	size_t count;		 /* go on until this many vertices are left (>= 1) ... */
-	double min_distance; /* ... and no two are nearer than this, in grid cells; 0: no such condition */
+	double min_distance; /* ... and no edge is shorter than this, in grid cells; 0: no such condition */
 } ty_stop;
 
 typedef struct ty_sequence
@@ -30,10 +31,12 @@ typedef void (*ty_after_merge)(void *context, const ty_mesh *mesh, size_t step);
 
 /*
  * Collapses n >= 1 vertices, position[rank] in canonical order (grid.h). position ends as the positions of the
- * vertices that are left. 0 <= s_u <= 1. The sequence is the caller's to free with ty_sequence_free.
+ * vertices that are left. 0 <= s_u <= 1. influence may be NULL; with one there may be no edge left to collapse before
+ * the stop is reached. The sequence is the caller's to free with ty_sequence_free.
  */
-ty_status ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s_u, ty_stop stop,
-					  bool with_cost, ty_after_merge after_merge, void *context, ty_sequence *sequence);
+ty_status ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s_u,
+					  const ty_influence *influence, ty_stop stop, bool with_cost, ty_after_merge after_merge,
+					  void *context, ty_sequence *sequence);
 void ty_sequence_free(const ty_environment *env, ty_sequence *sequence);
 
 /*

@@ -25,8 +25,6 @@
  */
 #include "collapse_internal.h"
 
-#include <math.h>
-
 /*
  * A merge usually takes 40 to 60 steps of work in the mesh. What exceeds ALLOWANCE of them is saved up; when it
  * has become a few times the live vertices a batch is looked for, which costs about as much: so looking never
@@ -221,7 +219,7 @@ try_batch(ty_run *run, batch *b, bool *valid)
 	if (b->to == NULL)
 		return TY_NO_MEMORY;
 	for (size_t i = 0; i < b->count; i++)
-		b->to[i] = ty_join(run, b->kept[i], b->gone[i]);
+		b->to[i] = ty_merged_place(run, b->kept[i], b->gone[i]);
 	status = ty_mesh_collapse_many(&run->mesh, b->kept, b->gone, b->to, b->count);
 	*valid = status == TY_OK && shortest_outside(run) > b->cost[b->count - 1];
 	return status;
@@ -235,6 +233,7 @@ enter_batch(ty_run *run, const batch *b)
 
 	for (size_t i = 0; i < b->count; i++)
 	{
+		ty_join(run, b->kept[i], b->gone[i], b->to[i], run->vertex[b->kept[i]].position);
 		ty_record(run, b->gone[i], b->cost[i]);
 		ty_retire(run, b->kept[i], b->gone[i]);
 		ty_show(run, i + 1 < b->count ? NULL : &run->mesh);
@@ -252,8 +251,6 @@ merge_batch(ty_run *run, batch *b)
 
 	if (status != TY_OK || valid)
 		return status == TY_OK ? enter_batch(run, b) : status;
-	for (size_t i = 0; i < b->count; i++)
-		ty_part(run, b->kept[i], b->gone[i], run->vertex[b->kept[i]].position, b->to[i]);
 	status = ty_mesh_part_many(&run->mesh, b->kept, b->gone, b->to, b->count);
 	return status == TY_OK ? put_back(run, b, 0) : status;
 }

@@ -18,7 +18,8 @@
 #ifndef TY_BUCKET_VERTICES
 #define TY_BUCKET_VERTICES 256
 #endif
-#define OCTAVES 63 /* costs are below 2^30.5 cells * 2^31 */
+#define OCTAVES 63			   /* costs are below 2^30.5 cells * 2^31 ... */
+#define INFLUENCED_OCTAVES 128 /* ... but influences may lengthen them: all of a float's from 1 on */
 
 /* Walks side by side: more than the memory requests that a core has under way at a time (measured: 16 to 64). */
 #define ABREAST 32
@@ -44,7 +45,7 @@ ty_bucket_begin(ty_run *run)
 	while (digits < 16 && run->mesh.live >> (digits + 1) >= TY_BUCKET_VERTICES)
 		digits++;
 	queue->shift = 23 - digits;
-	queue->buckets = (uint32_t) OCTAVES << digits;
+	queue->buckets = (uint32_t) (run->influence == NULL ? OCTAVES : INFLUENCED_OCTAVES) << digits;
 	queue->next = 0;
 	queue->free_chunk = TY_NONE;
 	queue->limit = (ty_edge){0, 0, 0};

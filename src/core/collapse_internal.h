@@ -5,6 +5,8 @@
 #include "collapse.h"
 #include "predicates.h"
 
+#include <math.h>
+
 /* an edge in the queue, owned by the vertex whose key it is */
 typedef struct ty_edge
 {
@@ -50,6 +52,13 @@ typedef struct ty_queue
 	size_t chunk_capacity;
 } ty_queue;
 
+/* A vertex whose members have importances. Sums of weights and of weighted positions are exact. */
+typedef struct ty_weighted
+{
+	int64_t weight;			/* of all members; a kept vertex's counts for nothing */
+	int64_t rest_x, rest_y; /* sum of weight * centroid less the vertex's weight * position */
+} ty_weighted;
+
 typedef struct ty_run
 {
 	const ty_environment *env;
@@ -59,6 +68,11 @@ typedef struct ty_run
 	ty_vertex *vertex; /* [n] the mesh's */
 	ty_position *rest; /* [n] sum of the represented centroids less size * position, per coordinate: exact */
 	ty_queue queue;
+	const ty_influence *influence; /* NULL: none; then the three arrays are NULL as well */
+	double *importance;			   /* [n] largest of the members'; INFINITY: kept. NULL: all 1 */
+	ty_weighted *weighted;		   /* [n] where there are importances: then it stands for rest */
+	uint32_t *row;				   /* [n] the members' row, if they have one. NULL: no rows */
+	double min_distance;		   /* the stop's */
 	uint32_t *near; /* for min_distance: merged vertices that may have a neighbour nearer than it; else NULL */
 	size_t near_count, near_capacity;
 	size_t near_first; /* those before it are no nearer than that to one another, but for the ones in near */
@@ -143,15 +157,10 @@ ty_bucket_of(const ty_queue *queue, int32_t key)
 
 /* ---- collapse.c ---- */
 
-/*
- * Adds gone to kept, which the mesh has not moved yet; returns where kept comes to: the mean of all that both
- * represent.
- */
-ty_position ty_join(ty_run *run, uint32_t kept, uint32_t gone);
-/* Undoes ty_join. merged: the place that it returned; the vertex is still there. */
-void ty_part(ty_run *run, uint32_t kept, uint32_t gone, ty_position merged, ty_position former);
-/* Where ty_join would bring the two. */
+/* Where a merge brings the two: to the mean of all that both represent. */
 ty_position ty_merged_place(const ty_run *run, uint32_t a, uint32_t b);
+/* Adds gone to kept, which comes from `former` to their merged place. */
+void ty_join(ty_run *run, uint32_t kept, uint32_t gone, ty_position former, ty_position to);
 /* Records a merge that has been joined. */
 void ty_record(ty_run *run, uint32_t gone, double cost);
 /* Remembers, once gone is out of the mesh, into which vertex it went (in its size, until there is room for a list). */
@@ -160,6 +169,38 @@ void ty_retire(ty_run *run, uint32_t kept, uint32_t gone);
 ty_status ty_enter_merged(ty_run *run, uint32_t kept);
 /* For tests: shows the mesh, or NULL while it is behind the merges. */
 void ty_show(const ty_run *run, const ty_mesh *mesh);
+
+/* With influences and a min_distance: remembers a new edge between two old vertices, if it is too short. */
+ty_status ty_look_near(ty_run *run, uint32_t a, uint32_t b);
+
+/* ---- collapse_influence.c ---- */
+
+/* Copies of what the influence says of the vertices, to be changed by merges. */
+ty_status ty_influence_begin(ty_run *run, const ty_influence *influence);
+void ty_influence_free(ty_run *run);
+/* a cost with the factors of importances and rows; INFINITY between two kept vertices, else finite */
+double ty_influenced_cost(const ty_run *run, uint32_t a, uint32_t b, double cost);
+/* ty_merged_place and ty_join where there are importances */
+ty_position ty_weighted_place(const ty_run *run, uint32_t a, uint32_t b);
+void ty_join_weighted(ty_run *run, uint32_t kept, uint32_t gone, ty_position former, ty_position to);
+/* Which row a merged vertex belongs to. */
+void ty_join_rows(ty_run *run, uint32_t kept, uint32_t gone);
+
+static inline bool
+ty_both_kept(const ty_run *run, uint32_t a, uint32_t b)
+{
+	return run->importance != NULL && run->importance[a] == INFINITY && run->importance[b] == INFINITY;
+}
+
+/* whether a barrier lies between two vertices */
+static inline bool
+ty_is_barred(const ty_run *run, uint32_t a, uint32_t b)
+{
+	const ty_influence *influence = run->influence;
+
+	return influence != NULL && influence->crosses != NULL &&
+		   influence->crosses(influence->barriers, run->vertex[a].position, run->vertex[b].position);
+}
 
 /* ---- collapse_batch.c ---- */
 

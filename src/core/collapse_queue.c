@@ -16,7 +16,6 @@
  */
 #include "collapse_internal.h"
 
-#include <math.h>
 #include <string.h>
 
 /* From this many vertices on there are buckets; fewer and their heap fit into a cache. Tests set it. */
@@ -28,14 +27,23 @@
 /* ---- cost and order ---- */
 
 /* f_a * distance (paper; symmetric form of spec 2.3) */
-static double
-edge_cost(const ty_run *run, uint32_t a, uint32_t b)
+static inline double
+plain_cost(const ty_run *run, uint32_t a, uint32_t b)
 {
 	const ty_vertex *p = &run->vertex[a], *q = &run->vertex[b];
 	double length = sqrt((double) ty_squared_distance(p->position, q->position));
 	double factor = run->s_u * (((double) p->size - 1) + ((double) q->size - 1)) + 1;
 
 	return factor * length;
+}
+
+/* with what influences make of it, barriers aside */
+static inline double
+edge_cost(const ty_run *run, uint32_t a, uint32_t b)
+{
+	double cost = plain_cost(run, a, b);
+
+	return __builtin_expect(run->influence == NULL, 1) ? cost : ty_influenced_cost(run, a, b, cost);
 }
 
 /* bits of the largest float that is not above a cost; they ascend as costs do, which are not negative */
@@ -178,8 +186,9 @@ ty_queue_partners(const ty_run *run, uint32_t a, uint32_t b)
 	return run->queue.key[a] == (int32_t) (b | 0x80000000);
 }
 
-ty_edge
-ty_least_edge(const ty_run *run, uint32_t v)
+/* Inlined twice: the loop without influences is the hottest of all, and a question more in it can be measured. */
+static inline __attribute__((always_inline)) ty_edge
+least_edge(const ty_run *run, uint32_t v, bool influenced)
 {
 	ty_edge least = {INFINITY, v, TY_NONE};
 	uint32_t first = run->vertex[v].edge, h = first;
@@ -192,13 +201,27 @@ ty_least_edge(const ty_run *run, uint32_t v)
 
 		if (w != TY_GHOST)
 		{
-			ty_edge e = {edge_cost(run, v, w), v, w};
+			ty_edge e = {plain_cost(run, v, w), v, w};
 
-			if (ty_before(e, least))
+			if (influenced)
+				e.cost = ty_influenced_cost(run, v, w, e.cost);
+			if (ty_before(e, least) && !(influenced && ty_is_barred(run, v, w)))
 				least = e;
 		}
 	} while ((h = ty_next_around(&run->mesh, h)) != first);
 	return least;
+}
+
+static __attribute__((noinline)) ty_edge
+least_influenced_edge(const ty_run *run, uint32_t v)
+{
+	return least_edge(run, v, true);
+}
+
+ty_edge
+ty_least_edge(const ty_run *run, uint32_t v)
+{
+	return run->influence == NULL ? least_edge(run, v, false) : least_influenced_edge(run, v);
 }
 
 /* An end whose key is as large as the edge's covers it only perhaps: keys are rounded. */
@@ -210,11 +233,14 @@ ty_cover_edge(void *context, uint32_t a, uint32_t b)
 	int32_t key = key_of_cost(e.cost);
 
 	if (run->status == TY_OK && run->queue.key[a] >= key && run->queue.key[b] >= key)
-		run->status = ty_queue_set(run, e);
+		run->status = ty_queue_set(run, e); /* whether a barrier is in the way is asked when its turn comes */
+	if (run->influence != NULL && run->near != NULL && run->status == TY_OK)
+		run->status = ty_look_near(run, a, b);
 }
 
 /* ---- the first entries: every edge is covered by its end of smaller rank ---- */
 
+/* Keys are lower bounds: whether a barrier is in the way is asked when an edge's turn comes. */
 static ty_status
 fill_buckets(ty_run *run)
 {
@@ -257,7 +283,7 @@ fill_heap(ty_run *run)
 		{
 			ty_edge e = {edge_cost(run, a, b), a, b};
 
-			if (ty_before(e, queue->heap[a]))
+			if (ty_before(e, queue->heap[a]) && !ty_is_barred(run, a, b))
 				queue->heap[a] = e;
 		}
 	}
@@ -354,7 +380,8 @@ half_edge_of(const ty_run *run, ty_edge e)
 	if (e.other == TY_NONE || run->mesh.live < 2)
 		return TY_NONE;
 	h = ty_mesh_find_edge(&run->mesh, e.owner, e.other);
-	return h != TY_NONE && edge_cost(run, e.owner, e.other) == e.cost ? h : TY_NONE;
+	return h != TY_NONE && edge_cost(run, e.owner, e.other) == e.cost && !ty_is_barred(run, e.owner, e.other) ? h
+																											  : TY_NONE;
 }
 
 /* Takes the least entry out of the queue, once it has been looked at. */

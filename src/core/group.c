@@ -81,14 +81,31 @@ area_statistic(const ty_environment *env, const ty_group *g, const uint32_t *mem
 	return TY_OK;
 }
 
-/* How large the placeholder is drawn, whose representative is b. */
+/* The direction and the place of the rectangle around an outline whose centre is the vertex. */
 static void
-set_size(const ty_group *g, const ty_building *b, ty_placeholder *p)
+fit_outline(const ty_outline *outline, ty_size size, ty_placeholder *p)
 {
-	double area = ty_scaled_area(g->parameters, g->area_factor, p->statistic);
-	double ratio = g->parameters->shape == TY_SQUARE ? 1 : b->ratio;
-	ty_size size = ty_drawn_size(g->parameters, p->statistic, area, ratio, p->count);
+	ty_point centre = ty_outline_box_centre(outline, sqrt(size.area / outline->area));
 
+	p->ux = outline->ux;
+	p->uy = outline->uy;
+	p->x += centre.x;
+	p->y += centre.y;
+}
+
+/* How large the placeholder is drawn, whose place and representative are known. */
+static void
+set_size(const ty_group *g, ty_placeholder *p)
+{
+	const ty_outline *outline = g->outlines == NULL ? NULL : g->outlines[p->representative];
+	double ratio = g->parameters->shape == TY_SQUARE ? 1 : g->buildings[p->representative].ratio;
+	double area = ty_scaled_area(g->parameters, g->area_factor, p->statistic);
+	ty_size size = outline != NULL && area > 0 ? ty_outline_drawn_size(g->parameters, outline, p->statistic, area)
+											   : ty_drawn_size(g->parameters, p->statistic, area, ratio, p->count);
+
+	p->outlined = outline != NULL && area > 0;
+	if (p->outlined)
+		fit_outline(outline, size, p);
 	p->area = size.area;
 	p->ratio = size.ratio;
 	p->width = size.width;
@@ -130,7 +147,9 @@ ty_describe(const ty_environment *env, const ty_group *g, const uint32_t *member
 	p->y = p->count == 1 ? b->y : ty_grid_y(&g->grid, g->position[rank].y);
 	p->ux = b->ux;
 	p->uy = b->uy;
-	set_size(g, b, p);
+	set_size(g, p);
+	p->moved = (ty_point){0, 0};
+	p->size = 2;
 	if (status == TY_OK && (!isfinite(p->area) || !isfinite(p->length)))
 		status = TY_NOT_FINITE;
 	return status;
@@ -268,7 +287,8 @@ ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters 
 {
 	const ty_building *buildings = input->buildings;
 	size_t n = input->n;
-	ty_group g = {.buildings = buildings, .parameters = p, .area_factor = ty_area_factor(p)};
+	ty_group g = {
+		.buildings = buildings, .outlines = input->outlines, .parameters = p, .area_factor = ty_area_factor(p)};
 	ty_sequence sequence = {0};
 	ty_status status;
 
@@ -281,7 +301,7 @@ ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters 
 	g.scale = fit_area_scale(buildings, n);
 	status = order_group(env, &g, n);
 	if (status == TY_OK)
-		status = ty_collapse(env, g.position, n, p->s_u, find_stop(&g, n), false, NULL, NULL, &sequence);
+		status = ty_collapse(env, g.position, n, p->s_u, NULL, find_stop(&g, n), false, NULL, NULL, &sequence);
 	if (status == TY_OK)
 		status = cut_and_describe(env, &g, &sequence, n, result);
 	ty_sequence_free(env, &sequence);

@@ -5,7 +5,9 @@
 #define TY_GROUP_H
 
 #include "environment.h"
+#include "legibility.h"
 #include "measure.h"
+#include "outline.h"
 #include "placeholder.h"
 
 /* What a group is made of. Only read. */
@@ -13,19 +15,28 @@ typedef struct ty_input
 {
 	const ty_building *buildings; /* [n] in any order */
 	size_t n;					  /* >= 1 */
+	/* [n] those with which placeholders are drawn, NULL for a building that has none; or NULL as a whole */
+	ty_outline *const *outlines;
 } ty_input;
 
 typedef struct ty_placeholder
 {
-	double x,
-		y; /* the vertex, ground units; of a single building its very centroid, off the grid; unless min_gap moved it */
+	/*
+	 * centre of the rectangle, ground units: the vertex; of a single building its very centroid, off the grid; min_gap
+	 * may have moved it
+	 */
+	double x, y;
 	double area; /* what is drawn, ground units; 0: no size, not drawn */
+	/* of the rectangle; where the representative has an outline, of the one around it, whose centre is not the vertex */
 	double width, length;
 	double statistic;		 /* of the members' areas, unscaled */
 	double ratio;			 /* width / length; of the representative unless min_side changed it, 1 for squares */
 	double ux, uy;			 /* of the representative */
+	ty_point moved;			 /* by min_gap, from the vertex */
+	double size;			 /* as a ty_site has it: 2 unless min_gap shrunk it */
 	uint32_t representative; /* index into the caller's buildings */
 	uint32_t first, count;	 /* members: ty_result.members[first .. first + count) */
+	bool outlined;			 /* drawn with the representative's outline, not as a rectangle */
 } ty_placeholder;
 
 typedef struct ty_result
@@ -42,6 +53,13 @@ typedef struct ty_result
  * The result's arrays come from env; ty_result_free gives them back. TY_NOT_FINITE when a sum of areas overflows.
  */
 ty_status ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result);
+/*
+ * The placeholder as a site (legibility.h), where min_gap has put it. p, input: as its group was typified with; the
+ * site's group is 0.
+ */
+void ty_placeholder_site(const ty_parameters *p, const ty_input *input, const ty_placeholder *placeholder,
+						 ty_site *site);
+
 void ty_result_free(const ty_environment *env, ty_result *result);
 
 #endif

@@ -14,6 +14,7 @@ typedef struct ty_area_scale
 typedef struct ty_group
 {
 	const ty_building *buildings;
+	ty_outline *const *outlines;
 	const ty_parameters *parameters;
 	ty_grid grid;
 	ty_area_scale scale;

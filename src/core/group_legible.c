@@ -18,6 +18,7 @@ typedef struct joining
 {
 	const ty_environment *env;
 	ty_group *group;
+	const ty_input *input;
 	ty_result *result;
 	ty_site *sites;	   /* [result->count] */
 	uint32_t *first;   /* [result->count] smallest rank */
@@ -37,22 +38,47 @@ not_above(ty_sides sides, ty_sides limit)
 	return (ty_sides){fmin(sides.width, limit.width), fmin(sides.length, limit.length)};
 }
 
-/* Without a minimum side nothing says how far a placeholder may be shrunk below its true size: not at all. */
+/* An outline is scaled as a whole, down to where its shorter side is the minimum one. */
 static void
-set_site(const joining *j, const ty_placeholder *p, ty_site *site)
+set_outline_sides(const ty_parameters *p, const ty_outline *outline, const ty_placeholder *q, ty_site *site)
 {
-	const ty_parameters *parameters = j->group->parameters;
-	const ty_building *b = &j->group->buildings[p->representative];
-	double ratio = parameters->shape == TY_SQUARE ? 1 : b->ratio;
-	ty_size own = ty_drawn_size(parameters, p->statistic, p->statistic, ratio, p->count);
+	double area = ty_scaled_area(p, ty_area_factor(p), q->statistic), factor;
+	ty_size full = ty_outline_drawn_size(p, outline, q->statistic, area);
+	ty_size own = ty_outline_drawn_size(p, outline, q->statistic, q->statistic);
 
-	*site = (ty_site){.home = {p->x, p->y}, .ux = p->ux, .uy = p->uy, .weight = p->count, .size = 2};
-	site->full = (ty_sides){p->width, p->length};
+	site->full = sides_of(full);
 	site->own = not_above(sides_of(own), site->full);
 	site->least = site->own;
-	if (parameters->min_side > 0)
-		site->least = not_above(sides_of(ty_least_size(parameters, ratio, p->count)), site->own);
-	site->state = p->area > 0 ? TY_DRAWN : TY_HIDDEN;
+	factor = site->own.width > 0 ? fmin(p->min_side / site->own.width, 1) : 1;
+	if (p->min_side > 0)
+		site->least = (ty_sides){factor * site->own.width, factor * site->own.length};
+	site->shift = ty_outline_box_centre(outline, sqrt(full.area / outline->area));
+}
+
+/* Without a minimum side nothing says how far a placeholder may be shrunk below its true size: not at all. */
+static void
+set_rectangle_sides(const ty_parameters *p, const ty_building *b, const ty_placeholder *q, ty_site *site)
+{
+	double ratio = p->shape == TY_SQUARE ? 1 : b->ratio, area = ty_scaled_area(p, ty_area_factor(p), q->statistic);
+
+	site->full = sides_of(ty_drawn_size(p, q->statistic, area, ratio, q->count));
+	site->own = not_above(sides_of(ty_drawn_size(p, q->statistic, q->statistic, ratio, q->count)), site->full);
+	site->least = site->own;
+	if (p->min_side > 0)
+		site->least = not_above(sides_of(ty_least_size(p, ratio, q->count)), site->own);
+}
+
+void
+ty_placeholder_site(const ty_parameters *p, const ty_input *input, const ty_placeholder *q, ty_site *site)
+{
+	*site = (ty_site){.ux = q->ux, .uy = q->uy, .weight = q->count, .moved = q->moved, .size = q->size};
+	site->state = q->area > 0 ? TY_DRAWN : TY_HIDDEN;
+	if (q->outlined)
+		set_outline_sides(p, input->outlines[q->representative], q, site);
+	else
+		set_rectangle_sides(p, &input->buildings[q->representative], q, site);
+	site->home = (ty_point){q->x, q->y};
+	site->home = (ty_point){2 * q->x - ty_site_centre(site).x, 2 * q->y - ty_site_centre(site).y};
 }
 
 /* Makes one ascending list of two. */
@@ -105,7 +131,7 @@ join(void *context, uint32_t kept, uint32_t gone, ty_site *site)
 		j->members[p->count++] = j->group->order[r];
 	j->group->position[rank] = mean_position(j, p->count);
 	status = ty_describe(j->env, j->group, j->members, rank, p);
-	set_site(j, p, site);
+	ty_placeholder_site(j->group->parameters, j->input, p, site);
 	return status;
 }
 
@@ -114,18 +140,23 @@ static void
 take_over(ty_placeholder *p, const ty_site *site)
 {
 	ty_sides sides = ty_site_sides(site);
+	ty_point centre = ty_site_centre(site);
 
-	p->x += site->moved.x;
-	p->y += site->moved.y;
-	if (site->size < 2)
-	{
-		p->width = sides.width;
-		p->length = sides.length;
-		p->area = sides.width * sides.length;
-		p->ratio = sides.width / sides.length;
-	}
+	p->moved = site->moved;
+	p->size = site->size;
 	if (site->state == TY_HIDDEN)
 		p->area = p->width = p->length = 0;
+	if (site->state == TY_HIDDEN || (site->size >= 2 && site->moved.x == 0 && site->moved.y == 0))
+		return;
+	p->x = centre.x;
+	p->y = centre.y;
+	if (site->size >= 2)
+		return;
+	p->area =
+		p->outlined ? p->area * (sides.length / p->length) * (sides.length / p->length) : sides.width * sides.length;
+	p->width = sides.width;
+	p->length = sides.length;
+	p->ratio = sides.width / sides.length;
 }
 
 /* Numbers those that are left, and labels and lists the members anew. */
@@ -175,14 +206,15 @@ prepare(joining *j, const uint32_t *label, size_t n)
 		j->first[label[rank]] = (uint32_t) rank;
 	}
 	for (size_t k = 0; k < j->result->count; k++)
-		set_site(j, &j->result->placeholders[k], &j->sites[k]);
+		ty_placeholder_site(j->group->parameters, j->input, &j->result->placeholders[k], &j->sites[k]);
 	return TY_OK;
 }
 
 ty_status
 ty_make_group_legible(const ty_environment *env, ty_group *g, uint32_t *label, size_t n, ty_result *result)
 {
-	joining j = {.env = env, .group = g, .result = result};
+	ty_input input = {.buildings = g->buildings, .n = n, .outlines = g->outlines};
+	joining j = {.env = env, .group = g, .input = &input, .result = result};
 	ty_legibility rules = {.gap = g->parameters->min_gap, .join = join, .context = &j};
 	ty_status status = prepare(&j, label, n);
 

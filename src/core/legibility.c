@@ -47,14 +47,23 @@ half_diagonal(ty_sides sides)
 	return 0.5 * sqrt(sides.width * sides.width + sides.length * sides.length);
 }
 
+ty_point
+ty_site_centre(const ty_site *s)
+{
+	double factor = s->size >= 2 || !(s->full.length > 0) ? 1 : ty_site_sides(s).length / s->full.length;
+
+	return (ty_point){s->home.x + s->moved.x + factor * s->shift.x, s->home.y + s->moved.y + factor * s->shift.y};
+}
+
 void
 ty_place_box(ty_ladder *l, uint32_t i)
 {
 	const ty_site *s = &l->sites[i];
 	ty_sides sides = ty_site_sides(s);
+	double factor = s->size >= 2 || !(s->full.length > 0) ? 1 : sides.length / s->full.length;
 
-	l->box[i] = (ty_box){s->home.x - l->origin.x + s->moved.x,
-						 s->home.y - l->origin.y + s->moved.y,
+	l->box[i] = (ty_box){s->home.x - l->origin.x + s->moved.x + factor * s->shift.x,
+						 s->home.y - l->origin.y + s->moved.y + factor * s->shift.y,
 						 s->ux,
 						 s->uy,
 						 0.5 * sides.length,
@@ -68,7 +77,7 @@ reach_of(const ty_ladder *l, const ty_site *s)
 {
 	double bound = s->fixed ? 0 : fmax(l->gap, 0.5 * fmax(s->full.length, s->full.width));
 
-	return half_diagonal(s->full) + bound + 0.5 * l->target;
+	return half_diagonal(s->full) + sqrt(s->shift.x * s->shift.x + s->shift.y * s->shift.y) + bound + 0.5 * l->target;
 }
 
 void

@@ -28,6 +28,7 @@ typedef struct ty_site
 	ty_point home;			   /* the vertex */
 	double ux, uy;			   /* unit vector along the length */
 	ty_sides full, own, least; /* full >= own >= least, side by side */
+	ty_point shift;			   /* of the rectangle's centre from the vertex at full size; in proportion to the length */
 	uint32_t weight;		   /* members: where one of two has to go, it is the lighter */
 	uint32_t group;			   /* only sites of one group are joined */
 	bool fixed;				   /* is not moved, shrunk, joined to another nor hidden; the others yield */
@@ -55,6 +56,8 @@ typedef struct ty_legibility
  */
 ty_status ty_make_legible(const ty_environment *env, const ty_legibility *rules, ty_site *sites, size_t n);
 
+/* where the rectangle's centre is */
+ty_point ty_site_centre(const ty_site *site);
 /* the sides at the site's present size */
 ty_sides ty_site_sides(const ty_site *site);
 

@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-#define CROWD 8	 /* sites in a square one to two times as wide as each needs: four times what can stand there */
+#define CROWD 8		 /* sites in a square one to two times as wide as each needs: four times what can stand there */
 #define CLOSE_UP 32	 /* as many at most are compared each with each; of more, neighbours in order are joined first */
 #define LEVEL_BITS 6 /* of a square's key; column and row have 29 each */
 #define MOST_SQUARES 268435456.0 /* in a row of level 0 */

@@ -23,7 +23,9 @@ typedef enum ty_area_statistic
 typedef enum ty_shape
 {
 	TY_RECTANGLE = 0, /* ratio and direction of the representative */
-	TY_SQUARE
+	TY_SQUARE,
+	TY_FOOTPRINT, /* the representative's own outline */
+	TY_AUTO		  /* its outline where it is kept or large, else a rectangle */
 } ty_shape;
 
 /* Every value resolved: defaults applied, checks done by the caller. */
@@ -46,6 +48,13 @@ typedef struct ty_parameters
 	double max_area; /* nothing is enlarged beyond it */
 	double min_gap;	 /* between placeholders */
 } ty_parameters;
+
+/* whether buildings' outlines are needed */
+static inline bool
+ty_wants_outline(const ty_parameters *p)
+{
+	return p->shape == TY_FOOTPRINT || p->shape == TY_AUTO;
+}
 
 #define TY_DEFAULT_SOURCE_SCALE 25000.0
 #define TY_DEFAULT_LOD200_SCALE 200000.0

@@ -138,7 +138,7 @@ bench_collapse(bench *b, double s_u, size_t count)
 
 	memcpy(b->moved, b->position, b->n * sizeof *b->moved);
 	start = clock_seconds();
-	check(ty_collapse(&ty_plain_environment, b->moved, b->n, s_u, stop, false, NULL, NULL, &sequence), b, "collapse");
+	check(ty_collapse(&ty_plain_environment, b->moved, b->n, s_u, NULL, stop, false, NULL, NULL, &sequence), b, "collapse");
 	seconds = clock_seconds() - start;
 	ty_sequence_free(&ty_plain_environment, &sequence);
 	return seconds;
@@ -150,7 +150,8 @@ bench_whole(bench *b)
 	double start = clock_seconds(), seconds;
 	ty_result result;
 
-	check(ty_typify(&ty_plain_environment, &(ty_input){b->buildings, b->n}, &at_75000, &result), b, "typify");
+	check(ty_typify(&ty_plain_environment, &(ty_input){.buildings = b->buildings, .n = b->n}, &at_75000, &result), b,
+		  "typify");
 	seconds = clock_seconds() - start;
 	ty_result_free(&ty_plain_environment, &result);
 	return seconds;
@@ -163,7 +164,7 @@ bench_peak(bench *b)
 	ty_environment env = counting_environment(&counter);
 	ty_result result;
 
-	check(ty_typify(&env, &(ty_input){b->buildings, b->n}, &at_75000, &result), b, "typify");
+	check(ty_typify(&env, &(ty_input){.buildings = b->buildings, .n = b->n}, &at_75000, &result), b, "typify");
 	ty_result_free(&env, &result);
 	return (double) sizeof *b->buildings + (double) counter.peak / (double) b->n;
 }

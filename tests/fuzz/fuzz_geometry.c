@@ -26,6 +26,26 @@ check_building(const ty_building *b)
 	demand(b->id == 0);
 }
 
+/* An outline, if there is one, is within its rectangle, and is written and read back as it is. */
+static void
+check_outline(const unsigned char *payload, size_t size)
+{
+	ty_outline *outline, *again;
+	unsigned char *copy;
+
+	if (ty_geometry_outline(&ty_plain_environment, payload, size, &outline) != TY_GEOMETRY_OK || outline == NULL)
+		return;
+	demand(outline->area > 0 && outline->low.x <= outline->high.x && outline->low.y <= outline->high.y);
+	copy = malloc(ty_outline_payload(outline));
+	demand(copy != NULL);
+	ty_geometry_write_outline(copy, 0, outline);
+	demand(ty_geometry_outline(&ty_plain_environment, copy, ty_outline_payload(outline), &again) == TY_GEOMETRY_OK);
+	demand(again != NULL && memcmp(outline, again, ty_outline_size(outline->rings, outline->points)) == 0);
+	free(copy);
+	free(outline);
+	free(again);
+}
+
 /* What is told about the payload must fit together. */
 static void
 check_answers(const unsigned char *payload, size_t size)
@@ -45,6 +65,7 @@ check_answers(const unsigned char *payload, size_t size)
 		demand(points == TY_GEOMETRY_OK);
 		demand(type >= TY_GEOMETRY_POINT && type <= TY_GEOMETRY_MULTIPOLYGON);
 		demand(!ty_geometry_find_not_finite(payload, size, &value));
+		check_outline(payload, size);
 	}
 	if (status == TY_GEOMETRY_EMPTY)
 		demand(points == TY_GEOMETRY_EMPTY);

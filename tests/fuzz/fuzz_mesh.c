@@ -84,7 +84,7 @@ LLVMFuzzerTestOneInput(const unsigned char *data, size_t size)
 	read_input(data, size);
 	if (in.n <= COMPARED)
 	{
-		const char *difference = compare_with_reference(in.position, in.n, in.s_u, in.stop, REFERENCE_MESH);
+		const char *difference = compare_with_reference(in.position, in.n, in.s_u, NULL, in.stop, REFERENCE_MESH);
 
 		if (difference != NULL)
 			give_up(difference);
@@ -92,7 +92,7 @@ LLVMFuzzerTestOneInput(const unsigned char *data, size_t size)
 	}
 	for (size_t i = 0; i < in.n; i++)
 		moved[i] = in.position[i];
-	if (ty_collapse(&ty_plain_environment, moved, in.n, in.s_u, in.stop, true, check_after_merge, NULL, &sequence) !=
+	if (ty_collapse(&ty_plain_environment, moved, in.n, in.s_u, NULL, in.stop, true, check_after_merge, NULL, &sequence) !=
 		TY_OK)
 		give_up("no success");
 	ty_sequence_free(&ty_plain_environment, &sequence);

@@ -99,7 +99,7 @@ compare_mesh(const reference *ref, const ty_mesh *mesh)
 static bool
 follow(comparison *c, size_t merges)
 {
-	while (c->merges < merges && c->ref.live > 1)
+	while (c->merges < merges && reference_can_go_on(&c->ref))
 		c->merge[c->merges++] = reference_step(&c->ref);
 	return c->merges == merges;
 }
@@ -164,11 +164,12 @@ compare_positions(const reference *ref, const ty_position *position)
 
 /* the merge before the last must have been needed: else the core went on too long */
 static const char *
-check_need_of_last(const ty_position *position, const comparison *c, double s_u, ty_stop stop)
+check_need_of_last(const ty_position *position, const comparison *c, double s_u, const ty_influence *influence,
+				   ty_stop stop)
 {
 	reference again;
 
-	reference_begin(&again, position, c->ref.n, s_u, c->candidates);
+	reference_begin(&again, position, c->ref.n, s_u, influence, c->candidates);
 	for (size_t i = 0; i < c->merges; i++)
 	{
 		if (!reference_must_go_on(&again, stop))
@@ -179,7 +180,8 @@ check_need_of_last(const ty_position *position, const comparison *c, double s_u,
 }
 
 const char *
-compare_with_reference(const ty_position *position, size_t n, double s_u, ty_stop stop, reference_candidates candidates)
+compare_with_reference(const ty_position *position, size_t n, double s_u, const ty_influence *influence, ty_stop stop,
+					   reference_candidates candidates)
 {
 	static comparison c;
 	ty_position moved[REFERENCE_MAX];
@@ -188,11 +190,11 @@ compare_with_reference(const ty_position *position, size_t n, double s_u, ty_sto
 	const char *difference;
 
 	memcpy(moved, position, n * sizeof *moved);
-	reference_begin(&c.ref, position, n, s_u, candidates);
+	reference_begin(&c.ref, position, n, s_u, influence, candidates);
 	c.candidates = candidates;
 	c.merges = 0;
 	c.difference = NULL;
-	status = ty_collapse(&ty_plain_environment, moved, n, s_u, stop, true, after_merge, &c, &sequence);
+	status = ty_collapse(&ty_plain_environment, moved, n, s_u, influence, stop, true, after_merge, &c, &sequence);
 	if (status != TY_OK)
 		return "the core gives an error";
 	difference = compare_sequence(&c, &sequence, stop);
@@ -200,28 +202,69 @@ compare_with_reference(const ty_position *position, size_t n, double s_u, ty_sto
 	if (difference == NULL)
 		difference = compare_positions(&c.ref, moved);
 	if (difference == NULL && stop.min_distance > 0)
-		difference = check_need_of_last(position, &c, s_u, stop);
+		difference = check_need_of_last(position, &c, s_u, influence, stop);
 	return difference;
 }
 
-size_t
-compare_minimise(ty_position *position, size_t n, double s_u, ty_stop stop, reference_candidates candidates)
+/* a set and what the influence says of its vertices */
+typedef struct rest
 {
+	ty_position position[REFERENCE_MAX];
+	double importance[REFERENCE_MAX];
+	uint32_t row[REFERENCE_MAX];
+	ty_influence influence; /* of these arrays */
+} rest;
+
+static void
+copy_without(rest *to, const rest *from, size_t n, size_t without)
+{
+	size_t count = 0;
+
+	for (size_t i = 0; i < n; i++)
+	{
+		if (i == without)
+			continue;
+		to->position[count] = from->position[i];
+		to->importance[count] = from->importance[i];
+		to->row[count++] = from->row[i];
+	}
+	to->influence = from->influence;
+	to->influence.importance = from->influence.importance == NULL ? NULL : to->importance;
+	to->influence.row = from->influence.row == NULL ? NULL : to->row;
+}
+
+size_t
+compare_minimise(ty_position *position, size_t n, double s_u, const ty_influence *influence, ty_stop stop,
+				 reference_candidates candidates)
+{
+	static rest set, fewer;
+
+	memset(&set, 0, sizeof set);
+	memcpy(set.position, position, n * sizeof *position);
+	if (influence != NULL)
+		set.influence = *influence;
+	if (set.influence.importance != NULL)
+		memcpy(set.importance, influence->importance, n * sizeof *set.importance);
+	if (set.influence.row != NULL)
+		memcpy(set.row, influence->row, n * sizeof *set.row);
 	for (size_t i = 0; i < n;)
 	{
-		ty_position fewer[REFERENCE_MAX];
 		ty_stop held = stop;
 
-		memcpy(fewer, position, i * sizeof *fewer);
-		memcpy(fewer + i, position + i + 1, (n - i - 1) * sizeof *fewer);
+		copy_without(&fewer, &set, n, i);
 		held.count = n - 1 > 0 && held.count > n - 1 ? n - 1 : held.count;
-		if (n > 1 && compare_with_reference(fewer, n - 1, s_u, held, candidates) != NULL)
+		if (n > 1 && compare_with_reference(fewer.position, n - 1, s_u, influence == NULL ? NULL : &fewer.influence,
+											held, candidates) != NULL)
 		{
-			memcpy(position, fewer, --n * sizeof *fewer);
+			n--;
+			copy_without(&set, &fewer, n, n);
 			i = 0;
 		}
 		else
 			i++;
 	}
+	memcpy(position, set.position, n * sizeof *position);
+	for (size_t i = 0; influence != NULL && i < n; i++)
+		printf("  {%d, %d} importance %g, row %d\n", position[i].x, position[i].y, set.importance[i], (int) set.row[i]);
 	return n;
 }

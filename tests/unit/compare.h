@@ -8,13 +8,14 @@
  * Collapses n <= REFERENCE_MAX positions, sorted along the curve, with the core and with the reference. NULL when
  * merges, costs, positions and, after each merge, the mesh are the same; else what differs.
  */
-const char *compare_with_reference(const ty_position *position, size_t n, double s_u, ty_stop stop,
-								   reference_candidates candidates);
+const char *compare_with_reference(const ty_position *position, size_t n, double s_u, const ty_influence *influence,
+								   ty_stop stop, reference_candidates candidates);
 
 /*
  * Takes points away from a set that differs while it still does. Returns how many are left; they stay sorted. The
- * count to stop at is held down to what is left.
+ * count to stop at is held down to what is left. Importances and rows, where there are any, are taken away with them.
  */
-size_t compare_minimise(ty_position *position, size_t n, double s_u, ty_stop stop, reference_candidates candidates);
+size_t compare_minimise(ty_position *position, size_t n, double s_u, const ty_influence *influence, ty_stop stop,
+						reference_candidates candidates);
 
 #endif

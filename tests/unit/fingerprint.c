@@ -79,7 +79,7 @@ hash_group(uint64_t hash, size_t n, const ty_parameters *p)
 {
 	ty_result result;
 
-	stop_on(ty_typify(&ty_plain_environment, &(ty_input){buildings, n}, p, &result), "ty_typify");
+	stop_on(ty_typify(&ty_plain_environment, &(ty_input){.buildings = buildings, .n = n}, p, &result), "ty_typify");
 	hash = HASH(hash, result.count);
 	for (size_t i = 0; i < result.count; i++)
 		hash = hash_placeholder(hash, &result, &result.placeholders[i]);
@@ -101,7 +101,7 @@ hash_small_sets(uint64_t hash)
 
 		small_set((small_kind) (set % SMALL_KINDS), &random, position, 60);
 		sort_along_curve(position, keys, 60);
-		stop_on(ty_collapse(&ty_plain_environment, position, 60, (double) (set % 4) / 3, to_one, true, NULL, NULL,
+		stop_on(ty_collapse(&ty_plain_environment, position, 60, (double) (set % 4) / 3, NULL, to_one, true, NULL, NULL,
 							&sequence),
 				"ty_collapse");
 		hash = hash_bytes(hash, sequence.kept, sequence.count * sizeof *sequence.kept);

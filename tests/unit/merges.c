@@ -31,7 +31,7 @@ main(int argc, char **argv)
 		return 1;
 	for (size_t rank = 0; rank < n; rank++)
 		printf("position %d %d\n", position[rank].x, position[rank].y);
-	if (ty_collapse(env, position, n, s_u, to_one, true, NULL, NULL, &sequence) != TY_OK)
+	if (ty_collapse(env, position, n, s_u, NULL, to_one, true, NULL, NULL, &sequence) != TY_OK)
 		return 1;
 	for (size_t i = 0; i < sequence.count; i++)
 		printf("merge %u %u %.17g\n", sequence.kept[i], sequence.gone[i], sequence.cost[i]);

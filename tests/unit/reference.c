@@ -144,13 +144,31 @@ reference_delaunay(const ty_position *at, const uint32_t *list, size_t m, refere
 }
 
 void
-reference_begin(reference *ref, const ty_position *position, size_t n, double s_u, reference_candidates candidates)
+reference_begin(reference *ref, const ty_position *position, size_t n, double s_u, const ty_influence *influence,
+				reference_candidates candidates)
 {
 	ref->n = ref->live = n;
 	ref->s_u = s_u;
+	ref->influence = influence;
 	ref->candidates = candidates;
 	for (size_t i = 0; i < n; i++)
-		ref->vertex[i] = (reference_vertex){true, 1, position[i].x, position[i].y, position[i]};
+	{
+		bool weighted = influence != NULL && influence->importance != NULL;
+		double importance = weighted ? influence->importance[i] : 1;
+		bool kept = isinf(importance) != 0;
+		wide weight = kept ? 0 : (wide) (importance * REFERENCE_UNIT);
+
+		ref->vertex[i] =
+			(reference_vertex){.live = true,
+							   .r = 1,
+							   .kept = kept,
+							   .importance = importance,
+							   .weight = weight,
+							   .sum_x = weight * position[i].x,
+							   .sum_y = weight * position[i].y,
+							   .row = influence != NULL && influence->row != NULL ? influence->row[i] : TY_NO_ROW,
+							   .at = position[i]};
+	}
 }
 
 static bool
@@ -168,26 +186,22 @@ true_length(const reference *ref, uint32_t a, uint32_t b)
 	return sqrt((double) (dx * dx + dy * dy));
 }
 
+/* INFINITY: there is no such edge */
 static double
-cost_of(const reference *ref, uint32_t s, uint32_t t)
+cost_of(const reference *ref, uint32_t a, uint32_t b)
 {
-	double f_a = ref->s_u * (double) ((ref->vertex[s].r - 1) + (ref->vertex[t].r - 1)) + 1.0;
+	const reference_vertex *s = &ref->vertex[a], *t = &ref->vertex[b];
+	const ty_influence *influence = ref->influence;
+	double f_a = ref->s_u * (double) ((s->r - 1) + (t->r - 1)) + 1.0;
+	double cost = f_a * true_length(ref, a, b);
 
-	return f_a * true_length(ref, s, t);
-}
-
-bool
-reference_must_go_on(const reference *ref, ty_stop stop)
-{
-	if (ref->live <= 1)
-		return false;
-	if (ref->live > stop.count)
-		return true;
-	for (uint32_t a = 0; a < ref->n; a++)
-		for (uint32_t b = a + 1; b < ref->n; b++)
-			if (ref->vertex[a].live && ref->vertex[b].live && true_length(ref, a, b) < stop.min_distance)
-				return true;
-	return false;
+	if (s->kept && t->kept)
+		return INFINITY;
+	if (influence != NULL && influence->crosses != NULL && !same_position(s->at, t->at) &&
+		influence->crosses(influence->barriers, s->at, t->at))
+		return INFINITY;
+	cost *= s->kept ? t->importance : t->kept ? s->importance : fmax(s->importance, t->importance);
+	return s->row == t->row ? cost : cost * (1 + influence->alignment);
 }
 
 /*
@@ -219,6 +233,23 @@ current_edges(const reference *ref, reference_edges edge)
 				join(edge, a, b);
 }
 
+bool
+reference_must_go_on(const reference *ref, ty_stop stop)
+{
+	reference_edges edge;
+
+	if (!reference_can_go_on(ref))
+		return false;
+	if (ref->live > stop.count)
+		return true;
+	current_edges(ref, edge);
+	for (uint32_t a = 0; a < ref->n; a++)
+		for (uint32_t b = a + 1; b < ref->n; b++)
+			if (edge[a][b] && cost_of(ref, a, b) != INFINITY && true_length(ref, a, b) < stop.min_distance)
+				return true;
+	return false;
+}
+
 /* least cost, then smaller rank, then larger rank: the order in which the pairs are looked at */
 static reference_merge
 least_edge(const reference *ref)
@@ -241,9 +272,16 @@ least_edge(const reference *ref)
 	return least;
 }
 
+bool
+reference_can_go_on(const reference *ref)
+{
+	/* without influences every edge may be */
+	return ref->live > 1 && (ref->influence == NULL || least_edge(ref).cost != INFINITY);
+}
+
 /* sum / count rounded half up; sums are not negative */
 static int32_t
-rounded_mean(int64_t sum, int64_t count)
+rounded_mean(wide sum, wide count)
 {
 	return (int32_t) ((2 * sum + count) / (2 * count));
 }
@@ -255,11 +293,23 @@ reference_step(reference *ref)
 	reference_vertex *kept = &ref->vertex[merge.kept];
 	reference_vertex *gone = &ref->vertex[merge.gone];
 
+	if (gone->kept)
+		kept->at = gone->at;
+	kept->kept |= gone->kept;
 	kept->r += gone->r;
+	kept->importance = fmax(kept->importance, gone->importance);
+	kept->weight += gone->weight;
 	kept->sum_x += gone->sum_x;
 	kept->sum_y += gone->sum_y;
-	kept->at.x = rounded_mean(kept->sum_x, kept->r);
-	kept->at.y = rounded_mean(kept->sum_y, kept->r);
+	if (kept->row == TY_NO_ROW || gone->row == TY_NO_ROW)
+		kept->row = kept->row == TY_NO_ROW ? gone->row : kept->row;
+	else if (kept->row != gone->row)
+		kept->row = TY_NO_ROW;
+	if (!kept->kept)
+	{
+		kept->at.x = rounded_mean(kept->sum_x, kept->weight);
+		kept->at.y = rounded_mean(kept->sum_y, kept->weight);
+	}
 	gone->live = false;
 	ref->live--;
 	return merge;

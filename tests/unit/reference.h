@@ -9,16 +9,21 @@
 
 #include "collapse.h"
 
-#define REFERENCE_MAX 72 /* vertices; the work grows with the fourth power */
+#define REFERENCE_UNIT 1024 /* importances are whole multiples of its inverse */
+#define REFERENCE_MAX 72	/* vertices; the work grows with the fourth power */
 
 typedef bool reference_edges[REFERENCE_MAX][REFERENCE_MAX]; /* symmetric, by rank */
 
 typedef struct reference_vertex
 {
 	bool live;
-	int64_t r;			  /* centroids that it represents */
-	int64_t sum_x, sum_y; /* of them */
-	ty_position at;		  /* their mean, rounded half up */
+	int64_t r;			   /* centroids that it represents */
+	bool kept;			   /* one of them is kept; then it stays at */
+	double importance;	   /* the largest of them */
+	__int128 weight;	   /* REFERENCE_UNIT * sum of their importances; 1 each where there are none */
+	__int128 sum_x, sum_y; /* of the centroids, weighted */
+	uint32_t row;		   /* TY_NO_ROW: none, or several */
+	ty_position at;		   /* their mean, rounded half up */
 } reference_vertex;
 
 typedef enum reference_candidates
@@ -31,6 +36,7 @@ typedef struct reference
 {
 	size_t n, live;
 	double s_u;
+	const ty_influence *influence; /* or NULL */
 	reference_candidates candidates;
 	reference_vertex vertex[REFERENCE_MAX];
 } reference;
@@ -41,10 +47,12 @@ typedef struct reference_merge
 	double cost;
 } reference_merge;
 
-void reference_begin(reference *ref, const ty_position *position, size_t n, double s_u,
+void reference_begin(reference *ref, const ty_position *position, size_t n, double s_u, const ty_influence *influence,
 					 reference_candidates candidates);
 bool reference_must_go_on(const reference *ref, ty_stop stop);
-/* merges once; there must be two vertices */
+/* whether there is an edge that may be collapsed */
+bool reference_can_go_on(const reference *ref);
+/* merges once; there must be such an edge */
 reference_merge reference_step(reference *ref);
 
 /* > 0 left, 0 collinear, < 0 right */

@@ -28,12 +28,12 @@ static bool
 equals_reference(const char *name, ty_position *position, size_t n, double s_u, ty_stop stop,
 				 reference_candidates candidates)
 {
-	const char *difference = compare_with_reference(position, n, s_u, stop, candidates);
+	const char *difference = compare_with_reference(position, n, s_u, NULL, stop, candidates);
 
 	if (CHECK(difference == NULL, "%s, n %zu: %s", name, n, difference))
 		return true;
-	n = compare_minimise(position, n, s_u, stop, candidates);
-	printf("  smallest: %s\n", compare_with_reference(position, n, s_u, stop, candidates));
+	n = compare_minimise(position, n, s_u, NULL, stop, candidates);
+	printf("  smallest: %s\n", compare_with_reference(position, n, s_u, NULL, stop, candidates));
 	print_set(position, n, s_u, stop);
 	return false;
 }
@@ -178,7 +178,7 @@ costs_are_not_kept_unless_asked_for(void)
 	ty_sequence sequence;
 
 	sort_along_curve(position, keys, 2);
-	NEED(ty_collapse(&ty_plain_environment, position, 2, 0, stop, false, NULL, NULL, &sequence) == TY_OK, "no");
+	NEED(ty_collapse(&ty_plain_environment, position, 2, 0, NULL, stop, false, NULL, NULL, &sequence) == TY_OK, "no");
 	CHECK(sequence.cost == NULL && sequence.count == 1, "%zu merges", sequence.count);
 	ty_sequence_free(&ty_plain_environment, &sequence);
 }

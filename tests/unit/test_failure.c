@@ -172,7 +172,7 @@ typify(size_t n, bool *jumped)
 		free_blocks();
 		return TY_OK;
 	}
-	status = ty_typify(&watched, &(ty_input){buildings, n}, &p, &result);
+	status = ty_typify(&watched, &(ty_input){.buildings = buildings, .n = n}, &p, &result);
 	if (status == TY_OK)
 		ty_result_free(&watched, &result);
 	return status;

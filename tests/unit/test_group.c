@@ -36,7 +36,7 @@ static ty_result
 typify(size_t n, const ty_parameters *p)
 {
 	ty_result result = {0, NULL, NULL, 0};
-	ty_status status = ty_typify(&ty_plain_environment, &(ty_input){buildings, n}, p, &result);
+	ty_status status = ty_typify(&ty_plain_environment, &(ty_input){.buildings = buildings, .n = n}, p, &result);
 
 	CHECK(status == TY_OK, "n %zu: status %d", n, status);
 	return result;
@@ -178,7 +178,8 @@ check_clusters(const ty_result *result, size_t n, double s_u)
 	const ty_stop stop = {result->count, 0};
 	ty_sequence sequence;
 
-	NEED(ty_collapse(&ty_plain_environment, position, n, s_u, stop, false, NULL, NULL, &sequence) == TY_OK, "collapse");
+	NEED(ty_collapse(&ty_plain_environment, position, n, s_u, NULL, stop, false, NULL, NULL, &sequence) == TY_OK,
+		 "collapse");
 	ty_sequence_cut(&sequence, n - result->count, n, label);
 	ty_sequence_free(&ty_plain_environment, &sequence);
 	for (size_t i = 0; i < result->count; i++)
@@ -388,7 +389,7 @@ infinite_sums_of_areas_do_not_pass_unseen(void)
 	p.count = 1;
 	for (size_t i = 0; i < 4; i++)
 		buildings[i] = (ty_building){(double) i, 0, 1.5e308, 1, 1, 0, (int64_t) i};
-	if (ty_typify(&ty_plain_environment, &(ty_input){buildings, 4}, &p, &result) != TY_OK)
+	if (ty_typify(&ty_plain_environment, &(ty_input){.buildings = buildings, .n = 4}, &p, &result) != TY_OK)
 		return;
 	CHECK(isfinite(result.placeholders->area) && isfinite(result.placeholders->length), "area %g, length %g",
 		  result.placeholders->area, result.placeholders->length);
@@ -404,9 +405,11 @@ what_is_not_finite_is_told(void)
 	for (size_t i = 0; i < 10; i++)
 		buildings[i] = (ty_building){(double) i, 0, 100, 1, 1, 0, (int64_t) i};
 	buildings[7].y = NAN;
-	CHECK(ty_typify(&ty_plain_environment, &(ty_input){buildings, 10}, &p, &result) == TY_NOT_FINITE, "NaN");
+	CHECK(ty_typify(&ty_plain_environment, &(ty_input){.buildings = buildings, .n = 10}, &p, &result) == TY_NOT_FINITE,
+		  "NaN");
 	buildings[7].y = INFINITY;
-	CHECK(ty_typify(&ty_plain_environment, &(ty_input){buildings, 10}, &p, &result) == TY_NOT_FINITE, "infinity");
+	CHECK(ty_typify(&ty_plain_environment, &(ty_input){.buildings = buildings, .n = 10}, &p, &result) == TY_NOT_FINITE,
+		  "infinity");
 }
 
 int

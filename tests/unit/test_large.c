@@ -62,7 +62,7 @@ collapse_watched(large_kind kind, size_t n, double s_u, size_t interval)
 	if (!CHECK(prepare(kind, n), "%s", large_kind_name[kind]))
 		return 0;
 	start = clock();
-	status = ty_collapse(&ty_plain_environment, position, n, s_u, to_one, true, look_at_mesh, &w, &sequence);
+	status = ty_collapse(&ty_plain_environment, position, n, s_u, NULL, to_one, true, look_at_mesh, &w, &sequence);
 	CHECK(status == TY_OK, "%s, s_u %g: status %d", large_kind_name[kind], s_u, status);
 	CHECK(w.broken == NULL, "%s, s_u %g, merge %zu: %s", large_kind_name[kind], s_u, w.step, w.broken);
 	CHECK(sequence.count == n - 1, "%s, s_u %g: %zu merges", large_kind_name[kind], s_u, sequence.count);
@@ -194,8 +194,8 @@ two_thousand_buildings_merge_as_nearest_pairs(void)
 
 		NEED(prepare(kind, n), "%s", large_kind_name[kind]);
 		begin_pairs(n);
-		NEED(ty_collapse(&ty_plain_environment, position, n, 0, to_one, true, NULL, NULL, &sequence) == TY_OK, "%s",
-			 large_kind_name[kind]);
+		NEED(ty_collapse(&ty_plain_environment, position, n, 0, NULL, to_one, true, NULL, NULL, &sequence) == TY_OK,
+			 "%s", large_kind_name[kind]);
 		CHECK(sequence.count == n - 1, "%s: %zu merges", large_kind_name[kind], sequence.count);
 		for (size_t i = 0; i < sequence.count; i++)
 		{

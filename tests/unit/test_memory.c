@@ -34,7 +34,7 @@ peak_of(large_kind kind, size_t n, const ty_parameters *p)
 	ty_status status;
 
 	large_set(kind, &random, buildings, n);
-	status = ty_typify(&env, &(ty_input){buildings, n}, p, &result);
+	status = ty_typify(&env, &(ty_input){.buildings = buildings, .n = n}, p, &result);
 	if (!CHECK(status == TY_OK, "%s: status %d", large_kind_name[kind], status))
 		return 0;
 	held = counter.used;
