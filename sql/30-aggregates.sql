@@ -199,6 +199,67 @@ CREATE AGGREGATE typify_placeholders(
 COMMENT ON AGGREGATE typify_placeholders(geometry, bigint, double precision, double precision, typify_options) IS
 'Typifies the buildings of a group as typify does and says who became what: an array of typify_placeholder in canonical order (element k + 1 is number k of typify_cluster, identical copies of a geometry aside: ids tell them apart here); unnest gives rows. Every building is a member of exactly one placeholder; one without size has geom NULL and raises a WARNING. NULL for a group without a usable row. id: a key of the building inside its group. scale: the denominator, at least source_scale (25000 unless set). s_u: density control in 0 .. 1; 0, the default, always merges the closest two. options: see typify_options; NULL sets none. A row whose geometry is NULL or EMPTY is passed over. Errors: 22023 for a geographic, a geocentric or a second SRID, a coordinate or parameter that is not finite or out of range, and parameters that vary inside a group; 22004 for a NULL scale or s_u; 0A000 for curves, TINs, polyhedral surfaces, collections and options that are not supported yet; 54000 for a result above 1 GB. Also 22004 for a NULL id and 22023 for an id that occurs twice in a group.';
 
+CREATE FUNCTION typify_sites_final(internal)
+RETURNS typify_site[]
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10000;
+
+COMMENT ON FUNCTION typify_sites_final(internal) IS
+'Support of typify_sites: typifies the buildings of a group.';
+
+CREATE AGGREGATE typify_sites(
+	geom geometry,
+	id bigint,
+	scale double precision,
+	s_u double precision,
+	options typify_options)
+(
+	SFUNC = typify_placeholders_transition,
+	STYPE = internal,
+	SSPACE = 1024,
+	FINALFUNC = typify_sites_final,
+	COMBINEFUNC = typify_combine,
+	SERIALFUNC = typify_serialize,
+	DESERIALFUNC = typify_deserialize,
+	PARALLEL = SAFE
+);
+
+COMMENT ON AGGREGATE typify_sites(geometry, bigint, double precision, double precision, typify_options) IS
+'As typify_placeholders, with what typify_settle needs to make the placeholders of several groups legible together.';
+
+CREATE FUNCTION typify_settle_transition(internal, bigint, integer, integer, integer, double precision[])
+RETURNS internal
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
+
+COMMENT ON FUNCTION typify_settle_transition(internal, bigint, integer, integer, integer, double precision[]) IS
+'Support of typify_settle: takes in a placeholder.';
+
+CREATE FUNCTION typify_settle_final(internal)
+RETURNS typify_settled[]
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 100000;
+
+COMMENT ON FUNCTION typify_settle_final(internal) IS
+'Support of typify_settle: makes the placeholders legible.';
+
+CREATE AGGREGATE typify_settle(
+	id bigint,
+	grp integer,
+	member_count integer,
+	srid integer,
+	site double precision[])
+(
+	SFUNC = typify_settle_transition,
+	STYPE = internal,
+	SSPACE = 16384,
+	FINALFUNC = typify_settle_final,
+	PARALLEL = SAFE
+);
+
+COMMENT ON AGGREGATE typify_settle(bigint, integer, integer, integer, double precision[]) IS
+'Makes the drawn placeholders of all groups of a layer legible together (options.min_gap), where each group is so by itself: id, which differs from row to row, a number of the group, member_count, the SRID and the field site of typify_site. Placeholders of different groups are not merged: they are shrunk, moved or, last, one of two is not drawn, that with more conflicts, then with fewer members, which is said in a WARNING. Returns those that something was done to; NULL without min_gap or a row. The same set of rows gives the same answer. Rows with a NULL are passed over. Errors: 22023 for a site that is none; 22003 for coordinates that are too large.';
+
 CREATE FUNCTION typify_placeholders_transition(internal, geometry, bigint, double precision, double precision, typify_options, double precision)
 RETURNS internal
 AS 'MODULE_PATHNAME'

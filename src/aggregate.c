@@ -22,6 +22,7 @@
 #include "core/group.h"
 #include "core/mesh.h"
 #include "geometry.h"
+#include "layer.h"
 #include "options.h"
 #include "progress.h"
 #include "state.h"
@@ -191,9 +192,13 @@ enum
 	FIELD_WIDTH,
 	FIELD_LENGTH,
 	FIELD_ORIENTATION,
-	FIELDS
+	FIELDS,
+	FIELD_SITE = FIELDS, /* of the composite typify_site alone */
+	FIELDS_WITH_SITE
 };
 
+#define SITE_ARRAY_SIZE (ARR_OVERHEAD_NONULLS(1) + SITE_NUMBERS * sizeof(float8))
+#define SITE_SIZE_BOUND (SITE_ARRAY_SIZE + MAXIMUM_ALIGNOF)
 #define MEMBERS_SIZE(count) (ARR_OVERHEAD_NONULLS(1) + (size_t) (count) * sizeof(int64))
 /* header with null bitmap, fixed fields, alignment: what a row takes at most besides geometry and members */
 #define ROW_OVERHEAD (MAXALIGN(SizeofHeapTupleHeader + 1) + 6 * sizeof(float8) + 3 * MAXIMUM_ALIGNOF)
@@ -208,9 +213,11 @@ typedef struct row_writer
 	const ty_result *result;
 	ArrayType *array; /* room for the most it can take; what is not written takes no memory */
 	size_t used;
-	void *polygon;		/* TY_POLYGON_DATUM_SIZE bytes, used for every row */
-	ArrayType *members; /* room for the largest placeholder's */
-	uint32 *unused;		/* as long, zero: what their sort moves along */
+	void *polygon;					 /* TY_POLYGON_DATUM_SIZE bytes, used for every row */
+	ArrayType *members;				 /* room for the largest placeholder's */
+	uint32 *unused;					 /* as long, zero: what their sort moves along */
+	const ty_parameters *parameters; /* in ground units, where rows have a site; else NULL */
+	ArrayType *site;				 /* its numbers */
 } row_writer;
 
 /* of the polygon's value */
@@ -243,10 +250,12 @@ array_header(ArrayType *array, size_t size, Oid element, int count)
 }
 
 static void
-writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result)
+writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result,
+			 const ty_parameters *site_parameters)
 {
 	Oid element = get_element_type(get_func_rettype(fcinfo->flinfo->fn_oid));
-	size_t size = array_size_bound(s, result);
+	size_t size = array_size_bound(s, result) + (site_parameters != NULL ? result->count * SITE_SIZE_BOUND : 0);
+	int fields = site_parameters != NULL ? FIELDS_WITH_SITE : FIELDS;
 	uint32 most = 0;
 
 	if (!AllocSizeIsValid(size))
@@ -254,10 +263,10 @@ writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, con
 	for (size_t k = 0; k < result->count; k++)
 		most = Max(most, result->placeholders[k].count);
 	writer->shape = lookup_rowtype_tupdesc(element, -1);
-	ty_check_shape(writer->shape, FIELDS, "typify_placeholder");
+	ty_check_shape(writer->shape, fields, site_parameters != NULL ? "typify_site" : "typify_placeholder");
 	writer->values = palloc0(writer->shape->natts * sizeof(Datum));
 	writer->nulls = palloc0(writer->shape->natts * sizeof(bool));
-	memset(writer->nulls + FIELDS, true, writer->shape->natts - FIELDS);
+	memset(writer->nulls + fields, true, writer->shape->natts - fields);
 	writer->group = s;
 	writer->result = result;
 	writer->array = palloc(size);
@@ -266,6 +275,23 @@ writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, con
 	writer->polygon = palloc(TY_POLYGON_DATUM_SIZE);
 	writer->members = palloc(MEMBERS_SIZE(most));
 	writer->unused = palloc0(most * sizeof(uint32));
+	writer->parameters = site_parameters;
+	writer->site = palloc0(SITE_ARRAY_SIZE);
+	array_header(writer->site, SITE_ARRAY_SIZE, FLOAT8OID, SITE_NUMBERS);
+}
+
+/* The placeholder's numbers, as an array that the next call overwrites. */
+static Datum
+writer_site(row_writer *writer, const ty_placeholder *placeholder)
+{
+	const ty_state *s = writer->group;
+	ty_input input = {.buildings = s->buildings, .n = s->count, .outlines = s->outlines};
+	ty_site site;
+
+	ty_placeholder_site(writer->parameters, &input, placeholder, &site);
+	ty_site_to_numbers(&site, placeholder->outlined, writer->parameters->min_gap,
+					   (double *) ARR_DATA_PTR(writer->site));
+	return PointerGetDatum(writer->site);
 }
 
 /* The ids of the placeholder's members, ascending, as an array that the next call overwrites. */
@@ -323,6 +349,8 @@ writer_add(row_writer *writer, const ty_placeholder *placeholder)
 	writer->values[FIELD_WIDTH] = Float8GetDatum(placeholder->width);
 	writer->values[FIELD_LENGTH] = Float8GetDatum(placeholder->length);
 	writer->values[FIELD_ORIENTATION] = Float8GetDatum(ty_orientation_degrees(placeholder->ux, placeholder->uy));
+	if (writer->parameters != NULL)
+		writer->values[FIELD_SITE] = writer_site(writer, placeholder);
 	row = heap_form_tuple(writer->shape, writer->values, writer->nulls);
 	writer_append(writer, row);
 	heap_freetuple(row);
@@ -336,6 +364,7 @@ writer_end(row_writer *writer)
 	ReleaseTupleDesc(writer->shape);
 	pfree(writer->polygon);
 	pfree(writer->members);
+	pfree(writer->site);
 	pfree(writer->unused);
 	pfree(writer->values);
 	pfree(writer->nulls);
@@ -344,11 +373,12 @@ writer_end(row_writer *writer)
 }
 
 static Datum
-placeholder_array(FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result)
+placeholder_array(FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result,
+				  const ty_parameters *site_parameters)
 {
 	row_writer writer;
 
-	writer_begin(&writer, fcinfo, s, result);
+	writer_begin(&writer, fcinfo, s, result, site_parameters);
 	for (size_t k = 0; k < result->count; k++)
 	{
 		CHECK_FOR_INTERRUPTS();
@@ -436,7 +466,28 @@ typify_placeholders_final(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	check_ids(s);
 	state_typify(s, &result);
-	array = placeholder_array(fcinfo, s, &result);
+	array = placeholder_array(fcinfo, s, &result, NULL);
+	ty_result_free(&ty_backend_environment, &result);
+	PG_RETURN_DATUM(array);
+}
+
+PG_FUNCTION_INFO_V1(typify_sites_final);
+Datum
+typify_sites_final(PG_FUNCTION_ARGS)
+{
+	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
+	ty_parameters parameters;
+	ty_result result;
+	Datum array;
+
+	aggregate_context(fcinfo);
+	if (s == NULL)
+		PG_RETURN_NULL();
+	check_ids(s);
+	state_typify(s, &result);
+	parameters = s->parameters;
+	ty_bring_to_ground(&parameters, s->metres_per_unit);
+	array = placeholder_array(fcinfo, s, &result, &parameters);
 	ty_result_free(&ty_backend_environment, &result);
 	PG_RETURN_DATUM(array);
 }

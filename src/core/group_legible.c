@@ -68,6 +68,14 @@ set_rectangle_sides(const ty_parameters *p, const ty_building *b, const ty_place
 		site->least = not_above(sides_of(ty_least_size(p, ratio, q->count)), site->own);
 }
 
+/* One that is drawn otherwise than its size says (an outline that turned out to be none) is not shrunk any more. */
+static void
+keep_size(const ty_placeholder *q, ty_site *site)
+{
+	site->full = site->own = site->least = (ty_sides){q->width, q->length};
+	site->size = 2;
+}
+
 void
 ty_placeholder_site(const ty_parameters *p, const ty_input *input, const ty_placeholder *q, ty_site *site)
 {
@@ -77,6 +85,8 @@ ty_placeholder_site(const ty_parameters *p, const ty_input *input, const ty_plac
 		set_outline_sides(p, input->outlines[q->representative], q, site);
 	else
 		set_rectangle_sides(p, &input->buildings[q->representative], q, site);
+	if (fabs(ty_site_sides(site).length - q->length) > 1e-9 * q->length)
+		keep_size(q, site);
 	site->home = (ty_point){q->x, q->y};
 	site->home = (ty_point){2 * q->x - ty_site_centre(site).x, 2 * q->y - ty_site_centre(site).y};
 }
