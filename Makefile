@@ -53,9 +53,9 @@ clean: clean-tests
 clean-tests:
 	@for dir in tests/unit tests/fuzz tests/bench; do if [ -f $$dir/Makefile ]; then $(MAKE) -s -C $$dir clean; fi; done
 
-.PHONY: demo test fuzz bench bench-core doc help
+.PHONY: demo test fuzz bench bench-core quality doc help
 # make hands on what it is given: DATA, ROADS, OSM, ATTRIBUTION, OUT, QGIS, PGVERSION, TYPIFY_DATA, N, RUNS, LARGE,
-# SETS, RESULTS_OUT
+# SETS, SCALES, RESULTS_OUT
 export DATA
 demo: override DATA := $(DEMO_DATA)
 demo:
@@ -68,6 +68,8 @@ bench:
 	@tools/bench.sh
 bench-core:
 	@tools/bench.sh core
+quality:
+	@tools/quality.sh
 doc:
 	@tools/doc.sh
 
@@ -85,6 +87,7 @@ help:
 	@echo "make fuzz             both fuzz targets, SECONDS=60 each"
 	@echo "make bench            ours beside PostGIS's own, a table in doc/benchmarks.md; N=100000 RUNS=5 LARGE=1 OUT=file"
 	@echo "make bench-core       the core alone, without a server; N= RUNS= OUT="
+	@echo "make quality          figures of layers beside those of PostGIS alone, in doc/quality.md; SETS= SCALES= OUT="
 	@echo "make doc              the pictures of README and doc/, and what the tutorial's commands print"
 	@echo "make clean            remove what was built"
-	@echo "demo, test, fuzz, bench and doc install missing Debian packages (as root or with sudo), take PGVERSION=15."
+	@echo "demo, test, fuzz, bench, quality and doc install missing Debian packages (as root or with sudo), take PGVERSION=15."

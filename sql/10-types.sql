@@ -40,22 +40,23 @@ COMMENT ON COLUMN typify_options.count_rule IS
 COMMENT ON COLUMN typify_options.area_statistic IS
 'What a placeholder takes from the areas of its members: mean (default, paper), median, or sum: their plain sum without the area factor.';
 COMMENT ON COLUMN typify_options.shape IS
-'rectangle (default, paper: ratio and direction of the representative), square (of equal area), footprint (the representative''s own outline, of several parts the largest, scaled to the area about its centroid; width and length are those of its minimum-area rectangle, which is drawn where the outline is no valid polygon) or auto (not supported yet).';
+'rectangle (default, paper: ratio and direction of the representative), square (of equal area), footprint (the representative''s own outline, of several parts the largest, scaled to the area about its centroid; width and length are those of its minimum-area rectangle, which is drawn where the outline is no valid polygon) or auto (kept buildings, see keep_area and importance, with their own outline, simplified by ST_SimplifyPreserveTopology where detours are shorter than 0.1 mm on the map, and their own area; all others as rectangles).';
 COMMENT ON COLUMN typify_options.min_area IS
-'A smaller building adds nothing to count, position or mean. Square units of the SRID. Not supported yet, except 0 (off).';
+'A building smaller than this (a shed) adds nothing to count, position or mean; it is a member of the placeholder whose vertex is nearest to its centroid, of equally near ones the first. A group of such buildings alone is one row with geom NULL. A kept building is no shed. Square units of the SRID; 0, the default, is off.';
 COMMENT ON COLUMN typify_options.min_side IS 
 'Shortest side of a placeholder, mm on the map (usual: 0.35); 0 is none. A shorter side is enlarged to it; the long side is then at least min(1 / ratio, 1.5) times as long, and of a placeholder of several members the ratio is at least 1/3. Points and lines get this size too.';
 COMMENT ON COLUMN typify_options.max_area IS 
 'Largest area that a placeholder is enlarged to, mm2 on the map; one that is larger by the unscaled statistic of its members'' areas keeps that. Default 2 * min_side^2 where min_side is set; 0 is no limit.';
-COMMENT ON COLUMN typify_options.keep_area IS 'Buildings as large as this on the map keep their size, mm2. Not supported yet.';
+COMMENT ON COLUMN typify_options.keep_area IS 
+'Buildings whose true area on the map is at least this are kept, as those of importance ''Infinity'' are: each in its place, with its own area, whatever it has absorbed; two of them are not merged. mm2 (usual: 0.5); 0, the default, is off. Their number depends on the scale, so the count may not be reached. psi is calibrated without it.';
 COMMENT ON COLUMN typify_options.min_gap IS 
 'Smallest gap between placeholders, mm on the map (usual: 0.2); 0 is none, and then they may overlap. Those that are nearer are shrunk to their true size, moved by at most the gap or half their longer side, shrunk to min_side (without min_side no further), and at last merged, so that there may be fewer than the count.';
 COMMENT ON COLUMN typify_options.alignment IS
 'How much longer edges count that leave a row of buildings. Not supported yet, except 0 (off).';
 COMMENT ON COLUMN typify_options.barriers IS
-'Lines that no merge crosses. Not supported yet, except an EMPTY geometry (off). Pass options with a large geometry as a scalar sub-select.';
+'Lines that nothing is merged across, even where the count cannot be reached then: the roads, rivers, railways that are drawn at the target scale. Lines and polygons (whose rings count), multi and collections of them (points in a collection are passed over), with the SRID of the buildings; EMPTY is none. What lies exactly on a line belongs to its right side, of a horizontal one to the upper side. Pass large ones as a scalar sub-select: they are then read, kept and indexed once for all groups.';
 COMMENT ON COLUMN typify_options.barrier_width IS
-'Width of the line symbol of barriers, mm on the map. Not supported yet, except 0 (off).';
+'Width of the line symbol of barriers, mm on the map; default 0. It counts where min_gap does.';
 
 CREATE TYPE typify_placeholder AS (
 	id bigint,

@@ -69,6 +69,11 @@ BEGIN
 				table_name, format_type(type, NULL)
 			USING ERRCODE = '42804', HINT = coalesce(link_hint, format(
 				'Name a key of integers with %s => ''...'', or pass a view that numbers the rows.', argument));
+	ELSIF kind = 'integers' AND type NOT IN ('int2[]'::regtype, 'int4[]'::regtype, 'int8[]'::regtype) THEN
+		RAISE EXCEPTION 'column % of % is of type %, it must be an array of smallint, integer or bigint',
+				quote_ident(column_name), table_name, format_type(type, NULL)
+			USING ERRCODE = '42804', HINT = format(
+				'Name an array of ids with %s => ''...'', or pass a view that casts to bigint[].', argument);
 	ELSIF kind = 'geometry' AND type <> 'geometry'::regtype THEN
 		RAISE EXCEPTION 'column % of % is of type %, it must be geometry', quote_ident(column_name), table_name,
 				format_type(type, NULL)
@@ -78,7 +83,7 @@ BEGIN
 	RETURN quote_ident(column_name);
 END $$;
 COMMENT ON FUNCTION typify_column_name(regclass, name, text, text) IS
-'The name of a column, quoted for SQL, after a look at its type. kind: integer (smallint, integer, bigint), geometry or any; domains over them count. argument: the argument that the hint tells to set. Errors: 22004 for NULL, 42703 for a column that is not there, 42804 for one of another type.';
+'The name of a column, quoted for SQL, after a look at its type. kind: integer (smallint, integer, bigint), integers (an array of them), geometry or any; domains over them count. argument: the argument that the hint tells to set. Errors: 22004 for NULL, 42703 for a column that is not there, 42804 for one of another type.';
 
 -- The text of a number or a word is the same where they are equal, so that an index on the column finds the groups; of
 -- other types that is not certain.
@@ -198,3 +203,41 @@ BEGIN
 END $$;
 COMMENT ON FUNCTION typify_check_ids(text, regclass, name, text, regclass) IS
 'Refuses rows of a source without an id (22004), two with the same one, and links that name one building twice (22023). argument: the one that names the column. Where the table''s key says so already, nothing is read.';
+
+CREATE FUNCTION typify_barrier_source(barriers regclass, geom_column name) RETURNS text
+LANGUAGE plpgsql STABLE PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	table_name text := typify_table_name(barriers, 'barriers');
+	geom text := typify_column_name(barriers, geom_column, 'geometry', 'barriers_geom_column');
+BEGIN
+	RETURN format('(SELECT %1$s::%2$s AS geom FROM %3$s AS b WHERE %1$s IS NOT NULL AND NOT ST_IsEmpty(%1$s))', geom,
+		'geometry'::regtype, table_name);
+END $$;
+COMMENT ON FUNCTION typify_barrier_source(regclass, name) IS
+'The sub-select of the geometries of a table of barriers that are neither NULL nor EMPTY. Errors: as of typify_table_name and typify_column_name.';
+
+CREATE FUNCTION typify_barrier_lines(barriers regclass, geom_column name, options typify_options, srid integer,
+	around geometry DEFAULT NULL)
+RETURNS geometry
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	source text;
+	lines geometry := options.barriers;
+BEGIN
+	IF barriers IS NOT NULL AND NOT ST_IsEmpty(lines) THEN
+		RAISE EXCEPTION 'barriers are given as a table and among options'
+			USING ERRCODE = '22023', HINT = 'Leave one of them out.';
+	ELSIF barriers IS NOT NULL THEN
+		source := typify_barrier_source(barriers, geom_column);
+		PERFORM typify_check_same_srid('lod25', srid, 'barriers', typify_source_srid(source, barriers, geom_column, 'barriers'));
+		EXECUTE format('SELECT ST_Collect(geom) FROM %s AS b WHERE $1 IS NULL OR geom && $1', source) INTO lines USING around;
+	END IF;
+	PERFORM typify_check_same_srid('lod25', srid, 'barriers', CASE WHEN NOT ST_IsEmpty(lines) THEN ST_SRID(lines) END);
+	RETURN lines;
+END $$;
+COMMENT ON FUNCTION typify_barrier_lines(regclass, name, typify_options, integer, geometry) IS
+'The barriers of a table, collected, or those among options; NULL when there are none. srid: of the buildings. around: only rows of the table whose boxes meet it. Errors: 22023 for both, for two SRIDs and for another one than that of the buildings; others as of typify_barrier_source.';

@@ -57,11 +57,26 @@ END;
 COMMENT ON FUNCTION typify_options_without_sizes(typify_options) IS
 'Options without those that make a map legible (min_side, max_area, keep_area, min_gap, barrier_width): sizes are calibrated as the area factor alone makes them. Errors: as of typify_options.';
 
+CREATE FUNCTION typify_options_without_barriers(options typify_options)
+RETURNS typify_options
+LANGUAGE plpgsql IMMUTABLE PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+BEGIN
+	IF options.barriers IS NOT NULL THEN
+		options.barriers := NULL;
+	END IF;
+	RETURN options;
+END $$;
+COMMENT ON FUNCTION typify_options_without_barriers(typify_options) IS
+'Options without barriers: what is passed on for every group.';
+
 CREATE FUNCTION typify_check_parameters(scale double precision, s_u double precision, options typify_options)
 RETURNS void
 LANGUAGE sql IMMUTABLE PARALLEL SAFE
 BEGIN ATOMIC
-	SELECT typify_cluster('POINT(0 0)'::geometry, scale, s_u, options) OVER ();
+	SELECT typify_cluster(ST_SetSRID('POINT(0 0)'::geometry, coalesce(ST_SRID((options).barriers), 0)), scale, s_u,
+		options) OVER ();
 END;
 COMMENT ON FUNCTION typify_check_parameters(double precision, double precision, typify_options) IS
 'Refuses scale, s_u and options as typify does, before any building is read.';
@@ -82,27 +97,33 @@ COMMENT ON FUNCTION typify_group_keys(text[]) IS
 'The different keys (typify_group_key) of groups; NULL for NULL, which means all';
 
 CREATE FUNCTION typify_each_group(source text, scale double precision, s_u double precision,
-	groups typify_calibration[], grouped boolean)
+	groups typify_calibration[], grouped boolean, barriers geometry)
 RETURNS TABLE (grp text, list typify_placeholder[])
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
 SET jit = off
 AS $$
 BEGIN
-	IF grouped THEN
+	IF grouped AND barriers IS NULL THEN
 		RETURN QUERY EXECUTE format(
 			'SELECT l.grp, typify_placeholders(b.geom, b.id, $1, $2, l.options)
 			FROM %s AS b JOIN unnest($3) AS l ON typify_group_key(l.grp) = typify_group_key(b.grp)
 			GROUP BY l.grp', source)
 			USING scale, s_u, groups;
+	ELSIF grouped THEN
+		RETURN QUERY EXECUTE format(
+			'SELECT l.grp, typify_barred(b.geom, b.id, $1, $2, l.options, (SELECT $4), NULL)
+			FROM %s AS b JOIN unnest($3) AS l ON typify_group_key(l.grp) = typify_group_key(b.grp)
+			GROUP BY l.grp', source)
+			USING scale, s_u, groups, barriers;
 	ELSE
 		RETURN QUERY EXECUTE format(
-			'SELECT NULL::text, typify_placeholders(b.geom, b.id, $1, $2, $3) FROM %s AS b', source)
-			USING scale, s_u, groups[1].options;
+			'SELECT NULL::text, typify_barred(b.geom, b.id, $1, $2, $3, (SELECT $4), NULL) FROM %s AS b', source)
+			USING scale, s_u, groups[1].options, barriers;
 	END IF;
 END $$;
-COMMENT ON FUNCTION typify_each_group(text, double precision, double precision, typify_calibration[], boolean) IS
-'The placeholders of the groups of a sub-select (id, geom, grp) that are named in groups, each with its options there, in one reading. grouped: false takes everything as one group, with the options of the first element. Errors: as of typify_placeholders.';
+COMMENT ON FUNCTION typify_each_group(text, double precision, double precision, typify_calibration[], boolean, geometry) IS
+'The placeholders of the groups of a sub-select (id, geom, grp) that are named in groups, each with its options there, in one reading. grouped: false takes everything as one group, with the options of the first element. barriers: of all groups; NULL for none. Errors: as of typify_placeholders.';
 
 -- Means by exact sums, so that they do not depend on the order of rows.
 CREATE FUNCTION typify_survey(lod25_source text, lod200_source text) RETURNS typify_calibration[]
@@ -136,7 +157,7 @@ COMMENT ON FUNCTION typify_survey(text, text) IS
 -- psi => 0: then the area of a placeholder is never lost to a factor of 0. Messages about placeholders without size
 -- belong to what is drawn; here nothing is.
 CREATE FUNCTION typify_measure(source text, levels typify_calibration[], s_u double precision, counts bigint[],
-	measured boolean[])
+	measured boolean[], barriers geometry)
 RETURNS typify_calibration[]
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
@@ -157,7 +178,7 @@ BEGIN
 	RETURN (
 		WITH size AS MATERIALIZED (
 			SELECT grp, cardinality(list) AS n, (SELECT sum(p.area) FROM unnest(list) AS p) / factor AS area
-			FROM typify_each_group(source, lod200_scale, s_u, probes, measured IS NOT NULL)
+			FROM typify_each_group(source, lod200_scale, s_u, probes, measured IS NOT NULL, barriers)
 		), mean AS (
 			SELECT typify_group_key(grp) AS key, false AS overall, area / n AS area FROM size
 			UNION ALL SELECT '', true, sum(area ORDER BY grp COLLATE "C" NULLS LAST) / sum(n) FROM size
@@ -167,7 +188,7 @@ BEGIN
 		FROM unnest(levels) WITH ORDINALITY AS l
 		LEFT JOIN mean ON key = typify_group_key(l.grp) AND mean.overall = l.overall);
 END $$;
-COMMENT ON FUNCTION typify_measure(text, typify_calibration[], double precision, bigint[], boolean[]) IS
+COMMENT ON FUNCTION typify_measure(text, typify_calibration[], double precision, bigint[], boolean[], geometry) IS
 'Calibrations with mean_placeholder_area filled in: the groups for which measured is true are typified at m200 with their exponent, element i to counts[i] where that is not NULL, and the first element takes the mean over all their placeholders. measured NULL: everything is one group.';
 
 CREATE FUNCTION typify_own_psi(calibration typify_calibration) RETURNS double precision
@@ -199,7 +220,7 @@ COMMENT ON FUNCTION typify_with_psi(typify_calibration[]) IS
 -- The count of the black-white rule follows from psi, and psi from the sizes of that many placeholders: repeated
 -- until the counts stay. They mostly do after two or three rounds; where they alternate, the last is as good.
 CREATE FUNCTION typify_calibrate_levels(lod25_source text, lod200_source text, s_u double precision,
-	given typify_options, grouped boolean, wanted text[], report boolean)
+	given typify_options, grouped boolean, wanted text[], report boolean, barriers geometry)
 RETURNS typify_calibration[]
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
@@ -263,7 +284,7 @@ BEGIN
 			FROM unnest(levels) WITH ORDINALITY AS l ORDER BY ordinality);
 	END IF;
 	FOR round IN 1 .. 8 LOOP
-		levels := typify_measure(lod25_source, levels, s_u, counts, measured);
+		levels := typify_measure(lod25_source, levels, s_u, counts, measured, barriers);
 		EXIT WHEN NOT sized;
 		levels := typify_with_psi(levels);
 		EXIT WHEN NOT by_ink;
@@ -275,8 +296,9 @@ BEGIN
 	END LOOP;
 	RETURN levels;
 END $$;
-COMMENT ON FUNCTION typify_calibrate_levels(text, text, double precision, typify_options, boolean, text[], boolean) IS
-'The calibrations of two sub-selects, the whole first; NULL when there is no building. grouped: false for the whole alone. wanted: only these groups need psi; NULL for all. report: also find mean_placeholder_area where psi has no use for it. Errors: 22023 for a LOD200 without objects or with more of them than buildings; others as of typify_placeholders.';
+COMMENT ON FUNCTION typify_calibrate_levels(text, text, double precision, typify_options, boolean, text[], boolean,
+	geometry) IS
+'The calibrations of two sub-selects, the whole first; NULL when there is no building. given: without barriers, which come by themselves. grouped: false for the whole alone. wanted: only these groups need psi; NULL for all. report: also find mean_placeholder_area where psi has no use for it. Errors: 22023 for a LOD200 without objects or with more of them than buildings; others as of typify_placeholders.';
 
 CREATE FUNCTION typify_calibrate(
 	lod25 regclass,
@@ -302,18 +324,24 @@ SET extra_float_digits = 1
 AS $$
 DECLARE
 	source record;
+	levels typify_calibration[];
 BEGIN
 	PERFORM typify_table_name(lod200, 'lod200');
 	PERFORM typify_check_parameters(coalesce(options.lod200_scale, 200000), s_u, options);
 	source := typify_levels(lod25, lod200, id_column, geom_column, lod200_id_column, lod200_geom_column, group_by,
 		lod200_group_by, links, false);
-	RETURN QUERY SELECT * FROM unnest(typify_calibrate_levels(source.lod25_source, source.lod200_source, s_u, options,
-		group_by IS NOT NULL OR links IS NOT NULL, NULL, true));
+	PERFORM typify_check_same_srid('lod25', source.srid, 'barriers', ST_SRID(options.barriers));
+	levels := typify_calibrate_levels(source.lod25_source, source.lod200_source, s_u,
+		typify_options_without_barriers(options), group_by IS NOT NULL OR links IS NOT NULL, NULL, true, options.barriers);
+	IF levels IS NOT NULL AND options.barriers IS NOT NULL THEN
+		levels[1].options.barriers := options.barriers;
+	END IF;
+	RETURN QUERY SELECT * FROM unnest(levels);
 END $$;
 COMMENT ON FUNCTION typify_calibrate(regclass, regclass, double precision, name, typify_options, name, name, name, name,
 	name, regclass) IS
 'Takes psi and exponent from two stored levels of detail, for the clusters that s_u and options really make (psi: paper, section on size; exponent: 2 ln(n25 / n200) / ln(m200 / m25), not below 0): rows of typify_calibration, whose options are ready to pass on. Derived with them, a layer has at m200 exactly the count and, to rounding, the mean area of LOD200, and at m25 the count of LOD25. Without groups one row. With group_by (a column of lod25, of any type) or links (a table or view with lod25_id and lod200_id, as typify_match returns; lod200_id is the group) a first row, overall, for all groups together, then one for each group by the bytes of its name, the NULL group last; calibrated is false where a group has no object of LOD200 or more of them than buildings: it takes the exponent and psi of all. The mean_placeholder_area of all is that of the placeholders of all groups.
 Objects of LOD200 belong to the group in their column lod200_group_by (default: the column that group_by names, if LOD200 has it), without one to that of the building whose centre is nearest to theirs (see typify_centre; of equally near ones that with the smallest id); with links, to the group of their lod200_id_column.
-What options set is kept: exponent, psi, count; with count, count_rule => ''black_white'' or min_distance alone no exponent is calibrated, since these say how many. With black_white the counts follow from the psi that is calibrated. With area_statistic => ''sum'' no psi is calibrated, since it has no effect. No psi is calibrated from a LOD200 without areas (points, lines).
+What options set is kept: exponent, psi, count; with count, count_rule => ''black_white'' or min_distance alone no exponent is calibrated, since these say how many. With black_white the counts follow from the psi that is calibrated. With area_statistic => ''sum'' no psi is calibrated, since it has no effect. No psi is calibrated from a LOD200 without areas (points, lines). Barriers stay with the first row''s options alone: a copy for every group may be more than a server holds.
 The tables are read, never written; id_column and, asked for with links only, lod200_id_column (smallint, integer, bigint; different for each row) and the two geometry columns may be named otherwise. NULL and EMPTY geometries do not count. No row when lod25 has no building.
 Errors: 42P01, 42809, 42703, 42804 for a table or column that is not there or of another kind; 22004 for arguments and ids that are NULL; 22023 for two SRIDs, a geographic one, ids that occur twice, a lod200 without objects or with more of them than lod25, links together with group_by, lod200_group_by without group_by; others as of typify_placeholders.';

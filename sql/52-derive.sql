@@ -90,10 +90,27 @@ END $$;
 COMMENT ON FUNCTION typify_wanted(text, text[], geometry) IS
 'The groups among the given ones that have a building whose bounding box meets that of box; NULL for all groups, when neither is given.';
 
+CREATE FUNCTION typify_surroundings(source text, groups text[], scale double precision) RETURNS geometry
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	extent geometry;
+BEGIN
+	IF groups IS NOT NULL THEN
+		EXECUTE format('SELECT ST_SetSRID(ST_Extent(geom)::geometry, min(ST_SRID(geom))) FROM %s AS b
+			WHERE typify_group_key(grp) = ANY ($1)', source) INTO extent USING typify_group_keys(groups);
+	END IF;
+	RETURN ST_Expand(extent, 0.02 * scale / typify_metres_per_unit(nullif(ST_SRID(extent), 0)));
+END $$;
+COMMENT ON FUNCTION typify_surroundings(text, text[], double precision) IS
+'A box around the buildings of these groups that reaches 20 mm on the map farther, beyond all that a barrier may touch; NULL for all groups and where the groups have no building.';
+
 CREATE FUNCTION typify_plan(lod25 regclass, lod200 regclass, scale double precision, s_u double precision,
 	group_by name, box geometry, options typify_options, allocation text, id_column name, geom_column name,
 	lod200_id_column name, lod200_geom_column name, lod200_group_by name, links regclass, groups text[],
-	OUT source text, OUT levels typify_calibration[], OUT hidden text[])
+	barriers_table regclass, barriers_geom_column name,
+	OUT source text, OUT levels typify_calibration[], OUT hidden text[], OUT barriers geometry)
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
 SET jit = off
@@ -124,8 +141,12 @@ BEGIN
 	wanted := typify_wanted(whole.lod25_source, groups, box);
 	keys := typify_group_keys(wanted);
 	source := typify_lod25_source(lod25, id_column, geom_column, group_by, links, wanted);
+	barriers := typify_barrier_lines(barriers_table, barriers_geom_column, options, whole.srid,
+		CASE WHEN lod200 IS NULL THEN typify_surroundings(source, wanted, scale) END);
+	options := typify_options_without_barriers(options);
 	IF lod200 IS NOT NULL THEN
-		levels := typify_calibrate_levels(whole.lod25_source, whole.lod200_source, s_u, options, grouped, wanted, false);
+		levels := typify_calibrate_levels(whole.lod25_source, whole.lod200_source, s_u, options, grouped, wanted, false,
+			barriers);
 	ELSE
 		levels := typify_census(CASE allocation WHEN 'total' THEN whole.lod25_source ELSE source END, options);
 	END IF;
@@ -145,11 +166,11 @@ BEGIN
 	WHERE NOT l.overall AND l.n25 > 0 AND (wanted IS NULL OR typify_group_key(l.grp) = ANY (keys));
 END $$;
 COMMENT ON FUNCTION typify_plan(regclass, regclass, double precision, double precision, name, geometry, typify_options,
-	text, name, name, name, name, name, regclass, text[]) IS
-'What typify_derive, whose arguments these are, does before it draws. source: of the buildings, at least those of the groups asked for; levels: these groups, by the bytes of their names, the NULL group last, each with its options, NULL when there is none; hidden: the keys (typify_group_key) of those that get no placeholder, and are one row that is not drawn.';
+	text, name, name, name, name, name, regclass, text[], regclass, name) IS
+'What typify_derive, whose arguments these are, does before it draws. source: of the buildings, at least those of the groups asked for; barriers: all that these groups may touch; levels: these groups, by the bytes of their names, the NULL group last, each with its options, NULL when there is none; hidden: the keys (typify_group_key) of those that get no placeholder, and are one row that is not drawn.';
 
 CREATE FUNCTION typify_draw_sites(source text, scale double precision, s_u double precision,
-	levels typify_calibration[], hidden text[])
+	levels typify_calibration[], hidden text[], barriers geometry)
 RETURNS TABLE (
 	id bigint,
 	geom geometry,
@@ -175,14 +196,14 @@ BEGIN
 		'SELECT p.id, CASE WHEN shown THEN p.geom END, p.member_count, p.members, CASE WHEN shown THEN p.area ELSE 0 END,
 			CASE WHEN shown THEN p.width ELSE 0 END, CASE WHEN shown THEN p.length ELSE 0 END, p.orientation, g.grp,
 			CASE WHEN shown AND p.geom IS NOT NULL THEN p.site END
-		FROM (SELECT l.grp, typify_sites(b.geom, b.id, $1, $2, l.options) AS list
+		FROM (SELECT l.grp, typify_sites(b.geom, b.id, $1, $2, l.options, (SELECT $5), NULL) AS list
 			FROM %s AS b JOIN unnest($3) AS l ON typify_group_key(l.grp) = typify_group_key(b.grp)
 			GROUP BY l.grp) AS g
 		CROSS JOIN LATERAL unnest(g.list) AS p
 		CROSS JOIN LATERAL (SELECT (typify_group_key(g.grp) = ANY ($4)) IS NOT TRUE AS shown) AS either', source)
-		USING scale, s_u, levels, hidden;
+		USING scale, s_u, levels, hidden, barriers;
 END $$;
-COMMENT ON FUNCTION typify_draw_sites(text, double precision, double precision, typify_calibration[], text[]) IS
+COMMENT ON FUNCTION typify_draw_sites(text, double precision, double precision, typify_calibration[], text[], geometry) IS
 'The rows of typify_derive, as typify_plan says, with each group legible by itself, and the field site of typify_site where a row is drawn.';
 
 CREATE FUNCTION typify_settled_geometry(geom geometry, settled typify_settled) RETURNS geometry
@@ -206,7 +227,7 @@ COMMENT ON FUNCTION typify_settled_area(double precision, typify_settled) IS
 'The area of a placeholder after typify_settle; the one before where nothing was done to it.';
 
 CREATE FUNCTION typify_draw_layer(source text, scale double precision, s_u double precision,
-	levels typify_calibration[], hidden text[])
+	levels typify_calibration[], hidden text[], barriers geometry)
 RETURNS TABLE (
 	id bigint,
 	geom geometry,
@@ -224,10 +245,10 @@ AS $$
 BEGIN
 	RETURN QUERY
 		WITH drawn AS MATERIALIZED (
-			SELECT * FROM typify_draw_sites(source, scale, s_u, levels, hidden)
+			SELECT * FROM typify_draw_sites(source, scale, s_u, levels, hidden, barriers)
 		), settled AS MATERIALIZED (
 			SELECT s FROM unnest((
-				SELECT typify_settle(n.id, n.number::integer, n.member_count, ST_SRID(n.geom), n.site)
+				SELECT typify_settle(n.id, n.number::integer, n.member_count, ST_SRID(n.geom), n.site, (SELECT typify_draw_layer.barriers))
 				FROM (SELECT *, dense_rank() OVER (ORDER BY typify_group_key(d.grp)) AS number FROM drawn AS d
 					WHERE d.site IS NOT NULL) AS n)) AS s
 		)
@@ -235,11 +256,11 @@ BEGIN
 			coalesce((s).width, d.width), coalesce((s).length, d.length), d.orientation, d.grp
 		FROM drawn AS d LEFT JOIN settled ON (s).id = d.id;
 END $$;
-COMMENT ON FUNCTION typify_draw_layer(text, double precision, double precision, typify_calibration[], text[]) IS
+COMMENT ON FUNCTION typify_draw_layer(text, double precision, double precision, typify_calibration[], text[], geometry) IS
 'The rows of typify_derive, as typify_plan says, with the placeholders of all groups legible together.';
 
 CREATE FUNCTION typify_draw(source text, scale double precision, s_u double precision, levels typify_calibration[],
-	hidden text[], grouped boolean, whole boolean)
+	hidden text[], grouped boolean, barriers geometry, whole boolean)
 RETURNS TABLE (
 	id bigint,
 	geom geometry,
@@ -263,18 +284,18 @@ BEGIN
 	IF levels IS NULL THEN
 		RETURN;
 	ELSIF whole AND grouped AND (levels[1].options).min_gap > 0 THEN
-		RETURN QUERY SELECT * FROM typify_draw_layer(source, scale, s_u, levels, hidden);
+		RETURN QUERY SELECT * FROM typify_draw_layer(source, scale, s_u, levels, hidden, barriers);
 		RETURN;
 	END IF;
 	RETURN QUERY
 		SELECT p.id, CASE WHEN shown THEN p.geom END, p.member_count, p.members, CASE WHEN shown THEN p.area ELSE 0 END,
 			CASE WHEN shown THEN p.width ELSE 0 END, CASE WHEN shown THEN p.length ELSE 0 END, p.orientation, g.grp
-		FROM typify_each_group(source, scale, s_u, levels, grouped) AS g
+		FROM typify_each_group(source, scale, s_u, levels, grouped, barriers) AS g
 		CROSS JOIN LATERAL unnest(g.list) AS p
 		CROSS JOIN LATERAL (SELECT (typify_group_key(g.grp) = ANY (hidden)) IS NOT TRUE AS shown) AS either;
 END $$;
-COMMENT ON FUNCTION typify_draw(text, double precision, double precision, typify_calibration[], text[],
-	boolean, boolean) IS
+COMMENT ON FUNCTION typify_draw(text, double precision, double precision, typify_calibration[], text[], boolean, geometry,
+	boolean) IS
 'The rows of typify_derive, as typify_plan says. grouped: false takes everything as one group. whole: these are all groups, whose placeholders options.min_gap keeps apart across groups too.';
 
 CREATE FUNCTION typify_derive(
@@ -292,7 +313,9 @@ CREATE FUNCTION typify_derive(
 	lod200_geom_column name DEFAULT 'geom',
 	lod200_group_by name DEFAULT NULL,
 	links regclass DEFAULT NULL,
-	groups text[] DEFAULT NULL)
+	groups text[] DEFAULT NULL,
+	barriers regclass DEFAULT NULL,
+	barriers_geom_column name DEFAULT 'geom')
 RETURNS TABLE (
 	id bigint,
 	geom geometry,
@@ -310,16 +333,17 @@ DECLARE
 	plan record;
 BEGIN
 	plan := typify_plan(lod25, lod200, scale, s_u, group_by, box, options, allocation, id_column, geom_column,
-		lod200_id_column, lod200_geom_column, lod200_group_by, links, groups);
+		lod200_id_column, lod200_geom_column, lod200_group_by, links, groups, barriers, barriers_geom_column);
 	RETURN QUERY SELECT * FROM typify_draw(plan.source, scale, s_u, plan.levels, plan.hidden,
-		group_by IS NOT NULL OR links IS NOT NULL, box IS NULL AND groups IS NULL);
+		group_by IS NOT NULL OR links IS NOT NULL, plan.barriers, box IS NULL AND groups IS NULL);
 END $$;
 COMMENT ON FUNCTION typify_derive(regclass, regclass, double precision, double precision, name, geometry,
-	typify_options, text, name, name, name, name, name, regclass, text[]) IS
+	typify_options, text, name, name, name, name, name, regclass, text[], regclass, name) IS
 'The placeholders of a table of buildings at any scale (its denominator, at least source_scale), calibrated as typify_calibrate does with lod200, the stored coarse level, or, where lod200 is NULL, with options as they are. Rows in no particular order: the fields of typify_placeholder (id: of the representative, and so a key of the layer), and grp, the group as text.
 group_by: a column of lod25, of any type; each of its values is typified by itself, NULL too. links: a table or view with lod25_id and lod200_id, as typify_match returns, instead: lod200_id is the group, and buildings without a link are the NULL group; at m200 each group with an object of lod200 is one placeholder of its area.
 allocation: each_group gives every group its own count, as the aggregate does. total divides the count of the whole table at the scale by largest remainders, in proportion to what the law leaves of each group in real numbers, equal remainders by the bytes of the group''s name. A group may get none: it is one row with geom NULL, area, width and length 0, all its buildings as members.
 box: only groups that have a building whose bounding box meets that of box, each whole. groups: only these groups (an element NULL is the NULL group). The rows are the same as without either, unless options.min_gap is set.
 options.min_gap: with neither box nor groups placeholders are kept apart over the whole table. Those of different groups are not merged but shrunk, moved or, last, not drawn (geom NULL, with a WARNING). With box or groups each group is legible by itself.
+barriers: a table or view of roads, rivers, railways (its column barriers_geom_column, lines or polygons) that nothing is merged across: those that are drawn at the scale. The same as the option barriers, which goes without a table; calibration heeds them too.
 Columns, groups of lod200 and what options keep: see typify_calibrate. lod25 and lod200 may be tables, views, materialized, partitioned or foreign tables; NULL and EMPTY geometries do not count. No row when lod25 has no building.
 Errors: as of typify_calibrate and typify_placeholders; 22023 for an allocation or a scale that is not allowed, a box of another SRID, and total with min_distance alone.';

@@ -65,7 +65,8 @@ COMMENT ON FUNCTION typify_legible_options(typify_options) IS
 
 CREATE FUNCTION typify_layer_definition(lod25 regclass, lod200 regclass, scale double precision, s_u double precision,
 	group_by name, options typify_options, allocation text, id_column name, geom_column name,
-	lod200_id_column name, lod200_geom_column name, lod200_group_by name, links regclass)
+	lod200_id_column name, lod200_geom_column name, lod200_group_by name, links regclass, barriers regclass,
+	barriers_geom_column name)
 RETURNS json
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
@@ -78,9 +79,13 @@ BEGIN
 	argument := CASE WHEN scale IS NULL THEN 'scale' WHEN s_u IS NULL THEN 's_u'
 		WHEN allocation IS NULL THEN 'allocation' WHEN id_column IS NULL THEN 'id_column'
 		WHEN geom_column IS NULL THEN 'geom_column' WHEN lod200_id_column IS NULL THEN 'lod200_id_column'
-		WHEN lod200_geom_column IS NULL THEN 'lod200_geom_column' END;
+		WHEN lod200_geom_column IS NULL THEN 'lod200_geom_column'
+		WHEN barriers_geom_column IS NULL THEN 'barriers_geom_column' END;
 	IF argument IS NOT NULL THEN
 		PERFORM typify_refuse_null(argument);
+	ELSIF ST_MemSize(options.barriers) > 100000 THEN
+		RAISE EXCEPTION 'barriers of % bytes are too large for the comment of a layer', ST_MemSize(options.barriers)
+			USING ERRCODE = '54000', HINT = 'Keep them in a table, and pass that: barriers => ''main_roads''.';
 	END IF;
 	RETURN json_build_object(
 		'typify', (SELECT extversion FROM pg_extension WHERE extname = 'typify'),
@@ -90,13 +95,15 @@ BEGIN
 		'options', jsonb_strip_nulls(to_jsonb(legible) || jsonb_build_object('barriers', (legible).barriers::text)),
 		'id_column', id_column, 'geom_column', geom_column, 'lod200_id_column', lod200_id_column,
 		'lod200_geom_column', lod200_geom_column, 'lod200_group_by', lod200_group_by,
-		'links', CASE WHEN links IS NOT NULL THEN typify_table_name(links, 'links') END);
+		'links', CASE WHEN links IS NOT NULL THEN typify_table_name(links, 'links') END,
+		'barriers', CASE WHEN barriers IS NOT NULL THEN typify_table_name(barriers, 'barriers') END,
+		'barriers_geom_column', barriers_geom_column);
 END
 $$;
 
 COMMENT ON FUNCTION typify_layer_definition(regclass, regclass, double precision, double precision, name,
-	typify_options, text, name, name, name, name, name, regclass) IS
-'How a layer is derived, as its comment says it: a JSON object of the version of typify, the arguments of typify_derive by their names (relations with schema) and, among options, those that are set, and those of typify_legible_options. Errors: 22004 for a NULL where a value is needed; those of typify_table_name.';
+	typify_options, text, name, name, name, name, name, regclass, regclass, name) IS
+'How a layer is derived, as its comment says it: a JSON object of the version of typify, the arguments of typify_derive by their names (relations with schema) and, among options, those that are set, and those of typify_legible_options. Errors: 22004 for a NULL where a value is needed; 54000 for the option barriers above 100 kB; those of typify_table_name.';
 
 CREATE FUNCTION typify_layer_comment(relation oid) RETURNS jsonb
 LANGUAGE plpgsql STABLE PARALLEL SAFE
@@ -143,7 +150,8 @@ DECLARE
 	source text;
 	options text := 'NULL';
 BEGIN
-	FOREACH source IN ARRAY ARRAY[definition->>'lod25', definition->>'lod200', definition->>'links'] LOOP
+	FOREACH source IN ARRAY ARRAY[definition->>'lod25', definition->>'lod200', definition->>'links',
+			definition->>'barriers'] LOOP
 		IF source IS NOT NULL AND to_regclass(source) IS NULL THEN
 			RAISE EXCEPTION '%, from which the layer is derived, does not exist', source
 				USING ERRCODE = 'undefined_table',
@@ -156,11 +164,15 @@ BEGIN
 	END IF;
 	RETURN format('%s(lod25 => %L::regclass, lod200 => %L::regclass, scale => %L, s_u => %L, group_by => %L, box => NULL, '
 		'options => %s, allocation => %L, id_column => %L, geom_column => %L, lod200_id_column => %L, '
-		'lod200_geom_column => %L, lod200_group_by => %L, links => %L::regclass, groups => %s)',
+		'lod200_geom_column => %L, lod200_group_by => %L, links => %L::regclass, groups => %s%s)',
 		function, definition->>'lod25', definition->>'lod200', definition->>'scale', definition->>'s_u',
 		definition->>'group_by', options, definition->>'allocation', definition->>'id_column',
 		definition->>'geom_column', definition->>'lod200_id_column', definition->>'lod200_geom_column',
-		definition->>'lod200_group_by', definition->>'links', groups);
+		definition->>'lod200_group_by', definition->>'links', groups,
+		CASE WHEN function = 'typify_plan' OR definition->>'barriers' IS NOT NULL THEN format(
+			', %s => %L::regclass, barriers_geom_column => %L',
+			CASE function WHEN 'typify_plan' THEN 'barriers_table' ELSE 'barriers' END,
+			definition->>'barriers', definition->>'barriers_geom_column') ELSE '' END);
 END
 $$;
 
@@ -411,7 +423,8 @@ BEGIN
 			HINT = 'Drop it first or choose another name; typify_refresh_scale derives a layer anew.';
 	END IF;
 	IF kind = 'materialized view' THEN
-		FOREACH source IN ARRAY ARRAY[definition->>'lod25', definition->>'lod200', definition->>'links'] LOOP
+		FOREACH source IN ARRAY ARRAY[definition->>'lod25', definition->>'lod200', definition->>'links',
+				definition->>'barriers'] LOOP
 			IF (SELECT relpersistence = 't' FROM pg_class WHERE oid = source::regclass) THEN
 				RAISE EXCEPTION 'a materialized view cannot be derived from the temporary table %', source
 					USING ERRCODE = 'feature_not_supported',
@@ -451,17 +464,19 @@ CREATE FUNCTION typify_create_scale(
 	lod200_id_column name DEFAULT 'id',
 	lod200_geom_column name DEFAULT 'geom',
 	lod200_group_by name DEFAULT NULL,
-	links regclass DEFAULT NULL)
+	links regclass DEFAULT NULL,
+	barriers regclass DEFAULT NULL,
+	barriers_geom_column name DEFAULT 'geom')
 RETURNS regclass
 LANGUAGE sql
 BEGIN ATOMIC
 	SELECT typify_layer_create(current_schema(), name, kind, typify_layer_definition(lod25, lod200, scale, s_u,
 		group_by, options, allocation, id_column, geom_column, lod200_id_column, lod200_geom_column, lod200_group_by,
-		links));
+		links, barriers, barriers_geom_column));
 END;
 
 COMMENT ON FUNCTION typify_create_scale(text, regclass, regclass, double precision, double precision, name, text,
-	typify_options, text, name, name, name, name, name, regclass) IS
+	typify_options, text, name, name, name, name, name, regclass, regclass, name) IS
 'Creates a layer: the placeholders of typify_derive at one scale, stored, and returns it. name is written as in SQL, with or without a schema; kind is ''materialized view'' or ''table''; all other arguments are those of typify_derive. Options leave it legible: min_side is 0.35 and min_gap 0.2 mm on the map unless they say otherwise, 0 turns either off. The layer has its columns, a unique index on id (the id of the representative, which does not change when buildings elsewhere do), geom of type geometry(Polygon, SRID) with a spatial index, for tables an index on grp, and a JSON comment that says how it was derived. It is dropped by DROP. Errors: 42P07 when the name is taken; 42602, 42622, 3F000 for a name that is none, is too long or has a schema that is missing; 22023 for another kind; 22004 for a NULL where a value is needed; 0A000 for a materialized view of a temporary table; those of typify_derive.';
 
 CREATE FUNCTION typify_refresh_scale(name regclass, concurrently boolean DEFAULT false) RETURNS void
@@ -554,12 +569,16 @@ DECLARE
 	state bigint;
 BEGIN
 	EXECUTE format('SELECT sum(hash_record(b)) FROM %s AS b', typify_layer_source(definition)) INTO state;
+	IF definition->>'barriers' IS NOT NULL THEN
+		EXECUTE format('SELECT $1 + coalesce(sum(hash_record(b)), 0) FROM %s AS b', typify_barrier_source(
+			(definition->>'barriers')::regclass, (definition->>'barriers_geom_column')::name)) INTO state USING state;
+	END IF;
 	RETURN coalesce(state, 0);
 END
 $$;
 
 COMMENT ON FUNCTION typify_layer_state(jsonb) IS
-'A number that tells whether the buildings from which a layer is derived are the same as before: the sum of the hashes of their ids, geometries and groups.';
+'A number that tells whether the buildings from which a layer is derived, and its barriers, are the same as before: the sum of the hashes of their ids, geometries and groups.';
 
 CREATE FUNCTION typify_layer_plan(definition jsonb) RETURNS jsonb
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
@@ -662,7 +681,7 @@ BEGIN
 		'ELSE NOT EXISTS (SELECT FROM %1$s AS done WHERE done.grp = todo.grp) END', layer)
 	INTO todo USING plan, first, last;
 	keys := typify_group_keys(todo);
-	SELECT array_agg(ROW(one->>0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, typify_options_with(base,
+	SELECT array_agg(ROW(one->>0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, typify_options_with(typify_options_without_barriers(base),
 			(one->>1)::float8, (one->>2)::float8, (one->>3)::bigint), NULL, NULL)::typify_calibration),
 		array_agg(typify_group_key(one->>0)) FILTER (WHERE (one->>4)::boolean)
 	INTO levels, hidden
@@ -670,10 +689,13 @@ BEGIN
 	IF levels IS NOT NULL THEN
 		PERFORM typify_layer_replace(layer, todo, format(
 			CASE WHEN typify_layer_has_sites(layer)
-				THEN 'typify_draw_sites(%L, %L::float8, %L::float8, %L::typify_calibration[], %L::text[])'
-				ELSE 'typify_draw(%L, %L::float8, %L::float8, %L::typify_calibration[], %L::text[], %L::boolean, false)' END,
+				THEN 'typify_draw_sites(%1$L, %2$L::float8, %3$L::float8, %4$L::typify_calibration[], %5$L::text[], '
+				ELSE 'typify_draw(%1$L, %2$L::float8, %3$L::float8, %4$L::typify_calibration[], %5$L::text[], %6$L::boolean, ' END
+			|| 'typify_barrier_lines(%7$L::regclass, %8$L, %9$L::typify_options, NULL, typify_surroundings(%1$L, $1, %2$L))'
+			|| CASE WHEN typify_layer_has_sites(layer) THEN ')' ELSE ', false)' END,
 			typify_layer_source(definition, todo), definition->>'scale', definition->>'s_u', levels, hidden,
-			definition->>'group_by' IS NOT NULL OR definition->>'links' IS NOT NULL));
+			definition->>'group_by' IS NOT NULL OR definition->>'links' IS NOT NULL, definition->>'barriers',
+			definition->>'barriers_geom_column', base));
 	END IF;
 END
 $$;
@@ -685,14 +707,19 @@ CREATE FUNCTION typify_layer_complete(layer regclass) RETURNS void
 LANGUAGE plpgsql
 SET search_path FROM CURRENT AS
 $$
+DECLARE
+	definition jsonb := typify_layer(layer);
+	base typify_options;
 BEGIN
 	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
 	IF typify_layer_has_sites(layer) THEN
 		EXECUTE format('UPDATE %1$s AS d SET geom = typify_settled_geometry(d.geom, s), area = typify_settled_area(d.area, s), '
 			'width = (s).width, length = (s).length '
-			'FROM unnest((SELECT typify_settle(id, number::integer, member_count, ST_SRID(geom), site) '
+			'FROM unnest((SELECT typify_settle(id, number::integer, member_count, ST_SRID(geom), site, (SELECT $1)) '
 			'FROM (SELECT *, dense_rank() OVER (ORDER BY typify_group_key(grp)) AS number FROM %1$s WHERE site IS NOT NULL) '
-				'AS n)) AS s WHERE (s).id = d.id', layer);
+				'AS n)) AS s WHERE (s).id = d.id', layer)
+		USING typify_barrier_lines((definition->>'barriers')::regclass, (definition->>'barriers_geom_column')::name,
+			jsonb_populate_record(base, nullif(definition->'options', 'null')), NULL);
 	END IF;
 	PERFORM typify_layer_keep_shares(layer,
 		nullif(typify_layer_comment(typify_layer_index(layer, 'grp')) - 'plan' - 'state', '{}'));
@@ -719,7 +746,9 @@ CREATE PROCEDURE typify_build_scale(
 	lod200_geom_column name DEFAULT 'geom',
 	lod200_group_by name DEFAULT NULL,
 	links regclass DEFAULT NULL,
-	batch integer DEFAULT 1000)
+	batch integer DEFAULT 1000,
+	barriers regclass DEFAULT NULL,
+	barriers_geom_column name DEFAULT 'geom')
 LANGUAGE plpgsql AS
 $$
 DECLARE
@@ -729,9 +758,9 @@ DECLARE
 	done integer := 0;
 BEGIN
 	EXECUTE format('SELECT * FROM %1$s.typify_layer_begin(current_schema(), $1, %1$s.typify_layer_definition($2, $3, $4, '
-		'$5, $6, $7, $8, $9, $10, $11, $12, $13, $14), $15)', typify)
+		'$5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $16, $17), $15)', typify)
 	INTO layer, number USING name, lod25, lod200, scale, s_u, group_by, options, allocation, id_column, geom_column,
-		lod200_id_column, lod200_geom_column, lod200_group_by, links, batch;
+		lod200_id_column, lod200_geom_column, lod200_group_by, links, batch, barriers, barriers_geom_column;
 	WHILE done < number LOOP
 		EXECUTE format('SELECT %s.typify_layer_build($1, $2, $3)', typify)
 			USING layer, done + 1, least(done + batch::bigint, number)::integer;
@@ -745,5 +774,5 @@ END
 $$;
 
 COMMENT ON PROCEDURE typify_build_scale(text, regclass, regclass, double precision, double precision, name,
-	typify_options, text, name, name, name, name, name, regclass, integer) IS
+	typify_options, text, name, name, name, name, name, regclass, integer, regclass, name) IS
 'Creates the layer that typify_create_scale creates with kind => ''table'', group by group: batch groups at a time, a COMMIT after each, and a NOTICE that says how many are done. After a stop (cancelled, failed, connection lost) the table stays with what is done and "finished": false in its comment; calling with the same arguments goes on with the groups that have no rows yet. Groups, counts and calibration are found once, at the beginning, so that it takes little longer than typify_create_scale. A call that goes on keeps to them, unless a building, its group, or what LOD200 has of a group is another than then: that is said (NOTICE), and the table is begun anew. Edits while a call runs are edits like any later: name their groups to typify_refresh_groups when it is finished. CALL it outside a transaction block (2D000 inside). Other errors: as of typify_create_scale; 22023 for a batch below 1.';

@@ -70,12 +70,11 @@ WITH detailed AS MATERIALIZED (
 ), wanted AS MATERIALIZED (
 	SELECT key, array_agg(id ORDER BY id) AS ids, array_agg(centre ORDER BY id) AS centres,
 		typify_options(source_scale => ($3).source_scale, lod200_scale => ($3).lod200_scale, count => count(*),
-			min_area => ($3).min_area, alignment => ($3).alignment, barriers => ($3).barriers,
-			barrier_width => ($3).barrier_width) AS options
+			min_area => ($3).min_area, alignment => ($3).alignment) AS options
 	FROM coarse GROUP BY key
 ), placeholders AS MATERIALIZED (
 	SELECT key, (p).id, (p).geom, (p).members
-	FROM (SELECT key, unnest(typify_placeholders(d.geom, d.id, $1, $2, w.options)) AS p
+	FROM (SELECT key, unnest(typify_barred(d.geom, d.id, $1, $2, w.options, (SELECT ($3).barriers), NULL)) AS p
 		  FROM detailed AS d JOIN wanted AS w USING (key) GROUP BY key) AS made
 ), sizeless AS (
 	SELECT p.id, point(avg(d.centre[0] ORDER BY d.id), avg(d.centre[1] ORDER BY d.id)) AS centre

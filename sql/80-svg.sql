@@ -70,28 +70,58 @@ END;
 COMMENT ON FUNCTION typify_svg_count(geometry, box2d, text) IS
 'How many members of a collection meet the frame: 41 buildings';
 
+CREATE FUNCTION typify_svg_layer(geom geometry, frame box2d, mm_per_unit double precision, colour text,
+	width double precision, more text DEFAULT '') RETURNS text
+LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
+RETURN format('<g fill="none" stroke="%s" stroke-width="%s" stroke-linecap="round" stroke-linejoin="round"%s>
+%s
+</g>
+', colour, round(width::numeric, 3)::double precision, more, typify_svg_paths(geom, frame, mm_per_unit));
+COMMENT ON FUNCTION typify_svg_layer(geometry, box2d, double precision, text, double precision, text) IS
+'Lines for typify_svg; width in millimetres, more is further SVG attributes';
+
 CREATE FUNCTION typify_svg_panel(x double precision, y double precision, frame box2d, mm_per_unit double precision,
-	geom geometry, word text, style text, roads geometry, road_width double precision) RETURNS text
+	geom geometry, word text, style text, below text, above text) RETURNS text
 LANGUAGE sql IMMUTABLE PARALLEL SAFE
 BEGIN ATOMIC
 	SELECT coalesce(typify_svg_text(x, y - 1.1, 2.3, typify_svg_count(geom, frame, word), ' fill="#555"'), '')
 		|| format($svg$<svg x="%s" y="%s" width="%3$s" height="%4$s" viewBox="0 0 %3$s %4$s">
-<g fill="none" stroke="#d9cfbd" stroke-width="%5$s" stroke-linecap="round" stroke-linejoin="round">
-%6$s
+%5$s<g fill-rule="evenodd" stroke-linecap="round" %6$s>
+%7$s
 </g>
-<g fill-rule="evenodd" stroke-linecap="round" %7$s>
-%8$s
-</g>
-<rect width="%3$s" height="%4$s" fill="none" stroke="#888" stroke-width="0.3"/>
+%8$s<rect width="%3$s" height="%4$s" fill="none" stroke="#888" stroke-width="0.3"/>
 </svg>
 $svg$, round(x::numeric, 2), round(y::numeric, 2), round((mm_per_unit * (ST_XMax(frame) - ST_XMin(frame)))::numeric, 2),
-		round((mm_per_unit * (ST_YMax(frame) - ST_YMin(frame)))::numeric, 2), road_width,
-		typify_svg_paths(roads, frame, mm_per_unit), style,
-		typify_svg_paths(geom, frame, mm_per_unit, ' fill="none" stroke="#1a1a1a" stroke-width="0.1"'));
+		round((mm_per_unit * (ST_YMax(frame) - ST_YMin(frame)))::numeric, 2), below, style,
+		typify_svg_paths(geom, frame, mm_per_unit, ' fill="none" stroke="#1a1a1a" stroke-width="0.1"'), above);
 END;
 COMMENT ON FUNCTION typify_svg_panel(double precision, double precision, box2d, double precision, geometry, text, text,
-	geometry, double precision) IS
-'One framed map for typify_svg, its count above it: roads underneath, buildings above';
+	text, text) IS
+'One framed map for typify_svg, its count above it; below and above: SVG of what lies under and over the buildings';
+
+-- Marks are drawn wide enough to be seen: what violates a limit is smaller than the limit.
+CREATE FUNCTION typify_svg_marks(after geometry, frame box2d, mm_per_unit double precision, min_gap double precision,
+	OUT marks text, OUT words text)
+LANGUAGE plpgsql IMMUTABLE STRICT PARALLEL SAFE
+SET search_path FROM CURRENT
+AS $$
+DECLARE
+	found record;
+BEGIN
+	SELECT ST_Collect(mark ORDER BY place) FILTER (WHERE kind = 'overlap') AS overlaps,
+		ST_Collect(mark ORDER BY place) FILTER (WHERE kind = 'gap') AS gaps,
+		count(*) FILTER (WHERE kind = 'overlap' AND mark && frame::geometry) AS overlap_count,
+		count(*) FILTER (WHERE kind = 'gap' AND mark && frame::geometry) AS gap_count
+	INTO found
+	FROM typify_violations(after, min_gap) WITH ORDINALITY AS violation (kind, mark, place);
+	marks := coalesce(typify_svg_layer(found.overlaps, frame, mm_per_unit, '#d62728', 0.2, ' style="fill:#d62728"'), '')
+		|| coalesce(typify_svg_layer(found.gaps, frame, mm_per_unit, '#ff9f1c', 0.5), '');
+	words := format('%s %s, %s %s too narrow', typify_svg_number(found.overlap_count),
+		CASE found.overlap_count WHEN 1 THEN 'overlap' ELSE 'overlaps' END, typify_svg_number(found.gap_count),
+		CASE found.gap_count WHEN 1 THEN 'gap' ELSE 'gaps' END);
+END $$;
+COMMENT ON FUNCTION typify_svg_marks(geometry, box2d, double precision, double precision) IS
+'Marks for typify_svg over placeholders that overlap (red) or lie nearer to each other than min_gap, units of the SRID (orange), and how many of them the frame shows, in words';
 
 CREATE FUNCTION typify_svg_document(width double precision, height double precision, content text) RETURNS text
 LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
@@ -143,14 +173,14 @@ END $$;
 COMMENT ON FUNCTION typify_svg_check_geometry(geometry) IS
 'Refuses what typify_svg cannot draw: curves, triangles, coordinates that are no finite numbers';
 
-CREATE FUNCTION typify_svg_check(before geometry, after geometry, scale double precision, roads geometry,
-	magnify double precision, frame geometry) RETURNS integer
+CREATE FUNCTION typify_svg_check(scale double precision, magnify double precision, barrier_width double precision,
+	min_gap double precision, geometries geometry[]) RETURNS integer
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
 AS $$
 DECLARE
 	srids integer[] := ARRAY(
-		SELECT DISTINCT ST_SRID(given) FROM unnest(ARRAY[before, after, roads, frame]) AS given
+		SELECT DISTINCT ST_SRID(given) FROM unnest(geometries) AS given
 		WHERE given IS NOT NULL ORDER BY 1);
 BEGIN
 	IF scale IS NULL OR NOT (scale > 0 AND scale < 'Infinity') THEN
@@ -169,16 +199,21 @@ BEGIN
 		RAISE EXCEPTION 'cannot draw geographic coordinates (SRID %) at map scale', srids[1]
 			USING ERRCODE = '22023', HINT = 'Project them first with ST_Transform.';
 	END IF;
-	PERFORM typify_svg_check_geometry(given) FROM unnest(ARRAY[before, after, roads, frame]) AS given;
+	PERFORM typify_check_length(barrier_width, 'barrier_width', 'Give millimetres on the map; 0 is a thin line.'),
+		typify_check_length(coalesce(min_gap, 0), 'min_gap', 'Give millimetres on the map; 0 marks overlaps alone.'),
+		typify_svg_check_geometry(given) FROM unnest(geometries) AS given;
 	RETURN srids[1];
 END $$;
-COMMENT ON FUNCTION typify_svg_check(geometry, geometry, double precision, geometry, double precision, geometry) IS
+COMMENT ON FUNCTION typify_svg_check(double precision, double precision, double precision, double precision,
+	geometry[]) IS
 'Refuses arguments that typify_svg cannot draw; returns their SRID';
 
--- Counts stand above the panels, scale and scale bar below the first; a lone panel is drawn in black.
+-- Counts stand above the panels, scale and scale bar below the first, violations below the placeholders; a lone panel is
+-- drawn in black.
 CREATE FUNCTION typify_svg(before geometry, after geometry, scale double precision, roads geometry DEFAULT NULL,
 	title text DEFAULT NULL, magnify double precision DEFAULT 1, frame geometry DEFAULT NULL,
-	attribution text DEFAULT NULL) RETURNS text
+	attribution text DEFAULT NULL, barriers geometry DEFAULT NULL, barrier_width double precision DEFAULT 0,
+	rows geometry DEFAULT NULL, min_gap double precision DEFAULT NULL) RETURNS text
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
 AS $$
@@ -186,29 +221,42 @@ DECLARE
 	margin CONSTANT double precision := 4;
 	black CONSTANT text := 'fill="#1a1a1a" fill-opacity="0.88"';
 	grey CONSTANT text := 'fill="#9c9c9c" stroke="#5c5c5c" stroke-width="0.06"';
-	srid integer := typify_svg_check(before, after, scale, roads, magnify, frame);
+	srid integer := typify_svg_check(scale, magnify, barrier_width, min_gap,
+		ARRAY[before, after, roads, frame, barriers, rows]);
 	mm_per_metre double precision := 1000 / scale * magnify;
 	mm_per_unit double precision := mm_per_metre * coalesce(typify_metres_per_unit(srid), 1);
 	road_width double precision := greatest(0.15, least(0.35, round((0.2 * magnify)::numeric, 2)));
 	shown box2d := typify_svg_frame(frame, coalesce(
-		ST_Expand(Box2D(ST_Collect(ST_Envelope(before), ST_Envelope(after))), 0)::geometry, roads), mm_per_unit);
+		ST_Expand(Box2D(ST_Collect(ST_Envelope(before), ST_Envelope(after))), 0)::geometry, roads, barriers), mm_per_unit);
 	panel_width double precision := mm_per_unit * (ST_XMax(shown) - ST_XMin(shown));
 	y double precision := margin + CASE WHEN title IS NULL THEN 3 ELSE 8 END;
 	bottom double precision := y + mm_per_unit * (ST_YMax(shown) - ST_YMin(shown));
 	x double precision := margin;
 	picture text := coalesce(typify_svg_text(margin, margin + 3, 3.4, title, ' font-weight="bold"'), '');
+	below text;
+	axes text;
+	marks text;
+	words text;
+	words_x double precision;
 BEGIN
 	IF shown IS NULL THEN
 		RETURN NULL;
 	END IF;
+	below := coalesce(typify_svg_layer(roads, shown, mm_per_unit, '#d9cfbd', road_width), '')
+		|| coalesce(typify_svg_layer(barriers, shown, mm_per_unit, '#e08e79', greatest(barrier_width, 0.1) * magnify), '');
+	axes := coalesce(typify_svg_layer(rows, shown, mm_per_unit, '#1f77b4', greatest(0.15, 0.05 * magnify)), '');
 	IF before IS NOT NULL OR after IS NULL THEN
 		picture := picture || typify_svg_panel(x, y, shown, mm_per_unit, before, 'building',
-			CASE WHEN after IS NULL THEN black ELSE grey END, roads, road_width);
+			CASE WHEN after IS NULL THEN black ELSE grey END, below, axes);
 		x := x + panel_width + margin;
 	END IF;
 	IF after IS NOT NULL THEN
-		picture := picture || typify_svg_panel(x, y, shown, mm_per_unit, after, 'placeholder', black, roads,
-			road_width);
+		words_x := CASE WHEN before IS NULL THEN x + 26 ELSE x END;
+		SELECT found.marks, found.words INTO marks, words
+		FROM typify_svg_marks(after, shown, mm_per_unit, min_gap * magnify / mm_per_unit) AS found;
+		picture := picture || typify_svg_panel(x, y, shown, mm_per_unit, after, 'placeholder', black, below,
+				coalesce(marks, '') || axes)
+			|| coalesce(typify_svg_text(words_x, bottom + 3.6, 2.3, words, ' fill="#d62728"'), '');
 		x := x + panel_width + margin;
 	END IF;
 	picture := picture || typify_svg_text(margin, bottom + 3.6, 2.3, '1:' || typify_svg_number(scale) || CASE
@@ -217,12 +265,13 @@ BEGIN
 		|| coalesce(typify_svg_text(margin, bottom + 10.4, 1.8, attribution, ' fill="#777"'), '');
 	-- words are as wide as they are long times their size times 0.6, at most
 	RETURN typify_svg_document(
-		greatest(x, 2 * margin + 2.1 * length(coalesce(title, '')),
+		greatest(x, words_x + 1.4 * length(words), 2 * margin + 2.1 * length(coalesce(title, '')),
 			2 * margin + 1.1 * length(coalesce(attribution, ''))),
 		bottom + CASE WHEN attribution IS NULL THEN 9.5 ELSE 12.5 END, picture);
 END $$;
-COMMENT ON FUNCTION typify_svg(geometry, geometry, double precision, geometry, text, double precision, geometry, text)
-IS 'An SVG picture of buildings before and after at true map size: millimetres as on a map at 1:scale, times magnify';
+COMMENT ON FUNCTION typify_svg(geometry, geometry, double precision, geometry, text, double precision, geometry, text,
+	geometry, double precision, geometry, double precision) IS
+'An SVG picture of buildings before and after at true map size: millimetres as on a map at 1:scale, times magnify. roads: thin lines under both; barriers: lines as wide as barrier_width (mm on the map) under both; rows: lines over both, such as the axes of rows of buildings. frame: only what lies in its box. min_gap (mm on the map): placeholders that overlap are marked in red and those nearer to each other than that in orange, and both are counted; 0 marks overlaps alone, NULL nothing. Geometries are collections, as ST_Collect makes them; NULL for none. Errors: 22023 for scale, magnify and lengths that are not allowed, two SRIDs, a geographic one and coordinates that are not finite; 22004 for a NULL barrier_width; 0A000 for curves and triangles.';
 
 -- A picture of ours says its size in its first tag; on a sheet it is a nested <svg>, whose lengths have no unit.
 CREATE FUNCTION typify_svg_sheet(svgs text[], columns integer DEFAULT 2, title text DEFAULT NULL,

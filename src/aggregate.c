@@ -24,6 +24,7 @@
 #include "geometry.h"
 #include "layer.h"
 #include "options.h"
+#include "partial.h"
 #include "progress.h"
 #include "state.h"
 
@@ -33,12 +34,13 @@
 typedef struct row_layout
 {
 	int id;
-	int parameters;
+	int parameters, parameter_count;
 	int importance;
 } row_layout;
 
-static const row_layout geometry_layout = {.parameters = 2};
-static const row_layout placeholders_layout = {.id = 2, .parameters = 3, .importance = 6};
+static const row_layout geometry_layout = {.parameters = 2, .parameter_count = 3};
+static const row_layout placeholders_layout = {.id = 2, .parameters = 3, .parameter_count = 3, .importance = 6};
+static const row_layout barred_layout = {.id = 2, .parameters = 3, .parameter_count = 4, .importance = 7};
 
 /* The context of states; the one preamble of all five functions. */
 static MemoryContext
@@ -51,19 +53,18 @@ aggregate_context(FunctionCallInfo fcinfo)
 	return context;
 }
 
-static void
-check_importance(FunctionCallInfo fcinfo, int argument)
+/* of the row; 1 where it is NULL or the aggregate takes none */
+static double
+row_importance(FunctionCallInfo fcinfo, int argument)
 {
 	double importance;
 
 	if (argument == 0 || argument >= PG_NARGS() || PG_ARGISNULL(argument))
-		return;
+		return 1;
 	importance = PG_GETARG_FLOAT8(argument);
 	if (!(importance >= 1))
 		ty_refuse_value("importance", importance, "at least 1");
-	if (importance != 1)
-		ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED), errmsg("importance other than 1 is not supported yet"),
-				errhint("Leave it out, or set it to NULL."));
+	return importance;
 }
 
 /* The state of the row's group, with the row's parameters and SRID checked against it. */
@@ -71,11 +72,17 @@ static ty_state *
 state_for_row(FunctionCallInfo fcinfo, MemoryContext context, const row_layout *layout, int32 srid)
 {
 	ty_state *s = PG_ARGISNULL(0) ? NULL : (ty_state *) PG_GETARG_POINTER(0);
-	ty_call *call = ty_call_of(fcinfo, layout->parameters, 1);
-	const ty_parameters *parameters = ty_call_parameters(call, &fcinfo->args[layout->parameters], s == NULL);
+	ty_call *call = ty_call_of(fcinfo, layout->parameters, layout->parameter_count, 1);
+	const ty_parameters *parameters;
 
+	call->group_context = context;
+	parameters = ty_call_parameters(call, &fcinfo->args[layout->parameters], s == NULL);
 	if (s == NULL)
+	{
 		s = ty_state_new(context, parameters, srid, ty_check_srid(&call->srids, srid), call->srids.geometry_type);
+		s->barriers = call->barriers.current;
+		ty_check_barrier_srid(s->barriers, srid);
+	}
 	else if (unlikely(s->generation != call->generation) && !ty_same_parameters(&s->parameters, parameters))
 		ty_refuse_varying_parameters();
 	s->generation = call->generation;
@@ -85,12 +92,13 @@ state_for_row(FunctionCallInfo fcinfo, MemoryContext context, const row_layout *
 
 /* The last building's outline, with which its placeholder may be drawn. */
 static void
-add_outline(ty_state *s, Datum geometry)
+add_outline(ty_state *s, Datum geometry, double importance)
 {
-	MemoryContext old = MemoryContextSwitchTo(s->context);
+	ty_outline *outline = ty_outline_to_draw(geometry, &s->buildings[s->count - 1], importance, &s->parameters,
+											 s->metres_per_unit, s->geometry_type);
 
-	ty_state_give_outline(s, ty_outline_datum(geometry));
-	MemoryContextSwitchTo(old);
+	if (outline != NULL)
+		ty_state_give_outline(s, outline);
 }
 
 /* Adds the row's building; a row without geometry is passed over, and nothing else of it looked at. */
@@ -99,6 +107,7 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 {
 	MemoryContext context = aggregate_context(fcinfo);
 	ty_building building;
+	double importance;
 	int32 srid;
 	ty_state *s;
 
@@ -112,10 +121,12 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 	if (layout->id != 0 && PG_ARGISNULL(layout->id))
 		ty_refuse_null("id");
 	building.id = layout->id != 0 ? PG_GETARG_INT64(layout->id) : 0;
-	check_importance(fcinfo, layout->importance);
+	importance = row_importance(fcinfo, layout->importance);
 	ty_state_add(s, &building);
+	if (unlikely(importance != 1))
+		ty_state_set_importance(s, importance);
 	if (unlikely(ty_wants_outline(&s->parameters)))
-		add_outline(s, PG_GETARG_DATUM(1));
+		add_outline(s, PG_GETARG_DATUM(1), importance);
 	PG_RETURN_POINTER(s);
 }
 
@@ -124,11 +135,43 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 /* From this many buildings on, what their mesh took is given back before the result's value is made. */
 #define LARGE_GROUP 100000
 
+/* What is not as asked for. */
+static void
+warn_of_result(const ty_state *s, const ty_result *result)
+{
+	size_t undrawn = result->undrawn - result->hidden;
+
+	if (undrawn > 0)
+		ereport(
+			WARNING,
+			errmsg_plural("%zu placeholder has no size and is not drawn",
+						  "%zu placeholders have no size and are not drawn", undrawn, undrawn),
+			errhint(
+				"Points, lines and polygons without area have none; with psi => 1 nothing has from lod200_scale on."));
+	if (result->hidden > 0)
+		ereport(WARNING,
+				errmsg_plural("there is no room for %zu placeholder, which is not drawn",
+							  "there is no room for %zu placeholders, which are not drawn", result->hidden,
+							  result->hidden),
+				errhint("Use a smaller min_side, min_gap or barrier_width, or fewer barriers."));
+	if (result->collisions > 0)
+		ereport(WARNING,
+				errmsg_plural("%zu pair of kept buildings is nearer to each other than min_gap",
+							  "%zu pairs of kept buildings are nearer to each other than min_gap", result->collisions,
+							  result->collisions),
+				errdetail("The first are %lld and %lld.", (long long) s->buildings[result->colliding[0]].id,
+						  (long long) s->buildings[result->colliding[1]].id));
+}
+
 /* Typifies the group; the result is of the current context. The state stays as it is. */
 static void
 state_typify(const ty_state *s, ty_result *result)
 {
-	ty_input input = {.buildings = s->buildings, .n = s->count, .outlines = s->outlines};
+	ty_input input = {.buildings = s->buildings,
+					  .n = s->count,
+					  .importance = s->importance,
+					  .outlines = s->outlines,
+					  .barriers = ty_lines_of_barriers(s->barriers)};
 	ty_parameters parameters = s->parameters;
 
 	ty_bring_to_ground(&parameters, s->metres_per_unit);
@@ -137,13 +180,7 @@ state_typify(const ty_state *s, ty_result *result)
 		ty_check_outlines(result, s->outlines, s->geometry_type);
 	if (s->count >= LARGE_GROUP)
 		ty_trim_memory();
-	if (result->undrawn > 0)
-		ereport(
-			WARNING,
-			errmsg_plural("%zu placeholder has no size and is not drawn",
-						  "%zu placeholders have no size and are not drawn", result->undrawn, result->undrawn),
-			errhint(
-				"Points, lines and polygons without area have none; with psi => 1 nothing has from lod200_scale on."));
+	warn_of_result(s, result);
 }
 
 /* Numbers that sort as the ids do. */
@@ -289,8 +326,7 @@ writer_site(row_writer *writer, const ty_placeholder *placeholder)
 	ty_site site;
 
 	ty_placeholder_site(writer->parameters, &input, placeholder, &site);
-	ty_site_to_numbers(&site, placeholder->outlined, writer->parameters->min_gap,
-					   (double *) ARR_DATA_PTR(writer->site));
+	ty_site_to_numbers(&site, placeholder->outlined, writer->parameters, (double *) ARR_DATA_PTR(writer->site));
 	return PointerGetDatum(writer->site);
 }
 
@@ -403,6 +439,64 @@ typify_placeholders_transition(PG_FUNCTION_ARGS)
 	return add_row(fcinfo, &placeholders_layout);
 }
 
+PG_FUNCTION_INFO_V1(typify_barred_transition);
+Datum
+typify_barred_transition(PG_FUNCTION_ARGS)
+{
+	return add_row(fcinfo, &barred_layout);
+}
+
+/* what is looked for among the arguments of the workers' aggregate */
+typedef struct barrier_search
+{
+	ty_barrier_cache *cache;
+	MemoryContext context, long_context; /* of the group and of the query */
+	ty_barrier_hash hash;
+	ty_barrier_set *found;
+} barrier_search;
+
+/* Barriers come in the options, or as a geometry that is not the first argument. */
+static bool
+look_for_barriers(void *context, int argument, Datum value, Oid type, bool per_query)
+{
+	barrier_search *search = context;
+	bool options = type_is_rowtype(type);
+
+	if (argument == 0 || (!options && get_typlen(type) != -1))
+		return false;
+	if (options)
+		value = ty_barriers_of_options(value);
+	if (value == (Datum) 0 || !ty_same_barriers(ty_check_barriers(value), search->hash))
+		return false;
+	search->found = ty_keep_barriers_datum(search->cache, per_query ? search->long_context : search->context,
+										   search->hash, value, per_query);
+	return true;
+}
+
+/* Gives a the barriers that b has or, where a worker sent their hash alone, that the plan has. */
+static void
+adopt_barriers(FunctionCallInfo fcinfo, MemoryContext context, ty_state *a, const ty_state *b)
+{
+	FmgrInfo *function = fcinfo->flinfo;
+	barrier_search search = {.context = context, .long_context = function->fn_mcxt, .hash = b->parameters.barriers};
+
+	if (a->barriers != NULL || ty_no_barriers(search.hash))
+		return;
+	if (function->fn_extra == NULL)
+		function->fn_extra = MemoryContextAllocZero(function->fn_mcxt, sizeof(ty_barrier_cache));
+	search.cache = function->fn_extra;
+	a->barriers = ty_find_barriers(search.cache, context, search.hash);
+	if (a->barriers == NULL && b->barriers != NULL)
+		a->barriers =
+			ty_keep_barriers(search.cache, context, search.hash, b->barriers->payload, b->barriers->size, false);
+	if (a->barriers == NULL && ty_visit_partial_arguments(fcinfo, look_for_barriers, &search))
+		a->barriers = search.found;
+	if (a->barriers == NULL)
+		ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				errmsg("the barriers of a parallel query are not in its plan"),
+				errhint("SET max_parallel_workers_per_gather = 0"));
+}
+
 PG_FUNCTION_INFO_V1(typify_combine);
 Datum
 typify_combine(PG_FUNCTION_ARGS)
@@ -416,7 +510,10 @@ typify_combine(PG_FUNCTION_ARGS)
 	if (a == NULL)
 		a = ty_state_new(context, &b->parameters, b->srid, b->metres_per_unit, b->geometry_type);
 	if (b != NULL)
+	{
+		adopt_barriers(fcinfo, context, a, b);
 		ty_state_merge(a, b);
+	}
 	PG_RETURN_POINTER(a);
 }
 

@@ -10,6 +10,7 @@
 #define SCALE 0
 #define S_U 1
 #define OPTIONS 2
+#define BARRIERS 3
 
 /* The planned expression of an argument, or NULL where the caller's context does not tell. */
 static Node *
@@ -27,27 +28,28 @@ argument_expression(FunctionCallInfo fcinfo, int argument)
 }
 
 /*
- * The least constant of the arguments decides. Where an aggregate runs as a window function nothing is known of
- * them, and they are compared for every row.
+ * The least constant of the arguments decides how often they are looked at. Where an aggregate runs as a window function
+ * nothing is known of them, and they are compared for every row.
  */
-static ty_constancy
-call_constancy(FunctionCallInfo fcinfo, int first, int given)
+static void
+find_constancy(ty_call *call, FunctionCallInfo fcinfo, int first)
 {
 	bool aggregate = AggGetAggref(fcinfo) != NULL;
 	PlannedStmt *statement = aggregate ? ((AggState *) fcinfo->context)->ss.ps.state->es_plannedstmt : NULL;
-	ty_constancy least = TY_PER_QUERY;
 
-	for (int i = 0; i < given; i++)
+	call->constancy = TY_PER_QUERY;
+	for (int i = 0; i < call->given; i++)
 	{
 		Node *expression = argument_expression(fcinfo, first + i);
+		ty_constancy constancy = expression == NULL ? TY_PER_ROW : ty_constancy_of(expression, statement);
 
-		least = Min(least, expression == NULL ? TY_PER_ROW : ty_constancy_of(expression, statement));
+		call->constant[i] = constancy == TY_PER_QUERY;
+		call->constancy = Min(call->constancy, constancy);
 	}
-	return least;
 }
 
 ty_call *
-ty_call_of(FunctionCallInfo fcinfo, int first, int geometry)
+ty_call_of(FunctionCallInfo fcinfo, int first, int given, int geometry)
 {
 	FmgrInfo *function = fcinfo->flinfo;
 	ty_call *call = function->fn_extra;
@@ -55,12 +57,18 @@ ty_call_of(FunctionCallInfo fcinfo, int first, int geometry)
 	if (likely(call != NULL))
 		return call;
 	call = MemoryContextAllocZero(function->fn_mcxt, sizeof(ty_call));
-	call->context = function->fn_mcxt;
-	call->given = Min(PG_NARGS() - first, TY_CALL_ARGUMENTS);
-	call->constancy = call_constancy(fcinfo, first, call->given);
+	call->context = call->group_context = function->fn_mcxt;
+	call->given = Min(PG_NARGS() - first, given);
+	find_constancy(call, fcinfo, first);
 	ty_srid_cache_begin(&call->srids, function->fn_oid, geometry, function->fn_mcxt);
 	function->fn_extra = call;
 	return call;
+}
+
+static bool
+is_number(int argument)
+{
+	return argument < OPTIONS;
 }
 
 static bool
@@ -69,38 +77,61 @@ same_arguments(const ty_call *call, const NullableDatum *arguments)
 	for (int i = 0; i < call->given; i++)
 	{
 		const NullableDatum *old = &call->arguments[i], *new = &arguments[i];
-		bool number = i != OPTIONS;
 
+		if (call->constant[i])
+			continue;
 		if (old->isnull != new->isnull)
 			return false;
-		if (!old->isnull && !datum_image_eq(old->value, new->value, number, number ? (int) sizeof(float8) : -1))
+		if (!old->isnull &&
+			!datum_image_eq(old->value, new->value, is_number(i), is_number(i) ? (int) sizeof(float8) : -1))
 			return false;
 	}
 	return true;
 }
 
-/* Options are copied as they are, out of line or compressed where they are so. */
+/* Options and barriers are copied as they are, out of line or compressed where they are so. */
 static void
 keep_arguments(ty_call *call, const NullableDatum *arguments)
 {
-	NullableDatum *options = &call->arguments[OPTIONS];
+	MemoryContext old = MemoryContextSwitchTo(call->context);
 
-	if (call->parsed && call->given > OPTIONS && !options->isnull)
-		pfree(DatumGetPointer(options->value));
-	memcpy(call->arguments, arguments, call->given * sizeof(NullableDatum));
-	if (call->given > OPTIONS && !options->isnull)
+	for (int i = 0; i < call->given; i++)
 	{
-		MemoryContext old = MemoryContextSwitchTo(call->context);
+		NullableDatum *kept = &call->arguments[i];
 
-		options->value = datumCopy(options->value, false, -1);
-		MemoryContextSwitchTo(old);
+		if (call->constant[i])
+			continue;
+		if (call->parsed && !is_number(i) && !kept->isnull)
+			pfree(DatumGetPointer(kept->value));
+		*kept = arguments[i];
+		if (!is_number(i) && !kept->isnull)
+			kept->value = datumCopy(kept->value, false, -1);
 	}
+	MemoryContextSwitchTo(old);
+}
+
+static bool
+is_given(const ty_call *call, const NullableDatum *arguments, int argument)
+{
+	return call->given > argument && !arguments[argument].isnull;
+}
+
+/* The hash of the argument barriers, which is not found anew while it cannot change. */
+static ty_barrier_hash
+hash_of_barriers_argument(ty_call *call, const NullableDatum *arguments)
+{
+	if (!is_given(call, arguments, BARRIERS))
+		return (ty_barrier_hash){0, 0};
+	if (!call->parsed || !call->constant[BARRIERS])
+		call->barriers_argument = ty_check_barriers(arguments[BARRIERS].value);
+	return call->barriers_argument;
 }
 
 static ty_parameters
-parse(const ty_call *call, const NullableDatum *arguments)
+parse(ty_call *call, const NullableDatum *arguments)
 {
-	bool options_given = call->given > OPTIONS && !arguments[OPTIONS].isnull;
+	bool options_given = is_given(call, arguments, OPTIONS);
+	ty_barrier_hash barriers = hash_of_barriers_argument(call, arguments);
 	ty_parameters parameters;
 
 	if (arguments[SCALE].isnull)
@@ -110,7 +141,43 @@ parse(const ty_call *call, const NullableDatum *arguments)
 	ty_resolve_parameters(DatumGetFloat8(arguments[SCALE].value),
 						  call->given > S_U ? DatumGetFloat8(arguments[S_U].value) : 0,
 						  options_given ? arguments[OPTIONS].value : (Datum) 0, !options_given, &parameters);
+	if (ty_no_barriers(barriers))
+		return parameters;
+	if (!ty_no_barriers(parameters.barriers))
+		ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				errmsg("barriers are given as an option and as an argument"), errhint("Leave one of them out."));
+	parameters.barriers = barriers;
 	return parameters;
+}
+
+/*
+ * Makes the barriers of the parameters current. They live as long as the call where they are constant, else as long as
+ * the group, so that many of them do not pile up.
+ */
+static void
+find_barriers(ty_call *call, const NullableDatum *arguments)
+{
+	ty_barrier_hash hash = call->parameters.barriers;
+	bool argument = is_given(call, arguments, BARRIERS) && ty_same_barriers(call->barriers_argument, hash);
+	bool constant = call->constant[argument ? BARRIERS : OPTIONS];
+	ty_barrier_set *set = ty_find_barriers(&call->barriers, call->group_context, hash);
+
+	if (set == NULL)
+		set = ty_keep_barriers_datum(
+			&call->barriers, constant ? call->context : call->group_context, hash,
+			argument ? arguments[BARRIERS].value : ty_barriers_of_options(arguments[OPTIONS].value), constant);
+	call->barriers.current = set;
+}
+
+static const ty_parameters *
+parameters_with_barriers(ty_call *call, const NullableDatum *arguments)
+{
+	if (ty_no_barriers(call->parameters.barriers))
+		call->barriers.current = NULL;
+	else if (call->barriers.current == NULL ||
+			 !ty_barriers_serve(call->barriers.current, call->group_context, call->parameters.barriers))
+		find_barriers(call, arguments);
+	return &call->parameters;
 }
 
 const ty_parameters *
@@ -121,7 +188,7 @@ ty_call_parameters(ty_call *call, const NullableDatum *arguments, bool group_beg
 	if (likely(call->parsed))
 		if (call->constancy == TY_PER_QUERY || (call->constancy == TY_PER_GROUP && !group_begins) ||
 			same_arguments(call, arguments))
-			return &call->parameters;
+			return parameters_with_barriers(call, arguments);
 	parameters = parse(call, arguments);
 	if (call->constancy != TY_PER_QUERY)
 		keep_arguments(call, arguments);
@@ -129,7 +196,7 @@ ty_call_parameters(ty_call *call, const NullableDatum *arguments, bool group_beg
 		call->generation++;
 	call->parameters = parameters;
 	call->parsed = true;
-	return &call->parameters;
+	return parameters_with_barriers(call, arguments);
 }
 
 void

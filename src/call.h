@@ -5,35 +5,40 @@
 #ifndef TY_CALL_H
 #define TY_CALL_H
 
+#include "barriers.h"
 #include "compat.h"
 #include "constancy.h"
 #include "core/placeholder.h"
 #include "srid.h"
 
-/* scale, s_u, options; s_u and options may not be given */
-#define TY_CALL_ARGUMENTS 3
+/* scale, s_u, options, barriers; all but scale may not be given. Barriers may be an option or, for wrappers, an argument. */
+#define TY_CALL_ARGUMENTS 4
 
 typedef struct ty_call
 {
-	MemoryContext context; /* lives as long as the plan node */
-	ty_constancy constancy;
-	int given; /* 1 .. TY_CALL_ARGUMENTS */
+	MemoryContext context;			  /* lives as long as the plan node */
+	MemoryContext group_context;	  /* of the group that asks; set by whoever calls ty_call_parameters */
+	ty_constancy constancy;			  /* the least of the arguments' */
+	bool constant[TY_CALL_ARGUMENTS]; /* for the query */
+	int given;						  /* 1 .. TY_CALL_ARGUMENTS */
 	bool parsed;
-	NullableDatum arguments[TY_CALL_ARGUMENTS]; /* what parameters were parsed from; unused when constant */
+	NullableDatum arguments[TY_CALL_ARGUMENTS]; /* what parameters were parsed from; unused where constant */
 	ty_parameters parameters;
-	uint64 generation; /* counts how often parameters changed */
+	ty_barrier_cache barriers;		   /* current: those of the parameters, if they have any */
+	ty_barrier_hash barriers_argument; /* once parsed */
+	uint64 generation;				   /* counts how often parameters changed */
 	ty_srid_cache srids;
 } ty_call;
 
 /*
  * The call of an aggregate's transition function or of a window function, made when asked for the first time.
- * The parameters start at argument `first`; the geometry is argument `geometry`.
+ * The parameters, at most `given` of them, start at argument `first`; the geometry is argument `geometry`.
  */
-extern ty_call *ty_call_of(FunctionCallInfo fcinfo, int first, int geometry);
+extern ty_call *ty_call_of(FunctionCallInfo fcinfo, int first, int given, int geometry);
 
 /*
- * The parameters for a row; arguments holds call->given values. They stay where they are: another generation
- * means that their values changed.
+ * The parameters for a row, and in call->barriers.current the barriers that go with them; arguments holds call->given
+ * values. They stay where they are: another generation means that their values changed.
  */
 extern const ty_parameters *ty_call_parameters(ty_call *call, const NullableDatum *arguments, bool group_begins);
 

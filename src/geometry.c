@@ -166,8 +166,8 @@ ty_refuse_size(void)
 
 /* ---- outlines ---- */
 
-ty_outline *
-ty_outline_datum(Datum geometry)
+static ty_outline *
+read_outline(Datum geometry)
 {
 	detoasted d = detoast(geometry);
 	ty_outline *outline = NULL;
@@ -178,16 +178,24 @@ ty_outline_datum(Datum geometry)
 	return outline;
 }
 
+ty_outline *
+ty_copy_outline(const ty_outline *outline, MemoryContext context)
+{
+	size_t size = ty_outline_size(outline->rings, outline->points);
+	ty_outline *copy = MemoryContextAllocHuge(context, size);
+
+	memcpy(copy, outline, size);
+	return copy;
+}
+
 /* A copy of the outline, so large that its rectangle is the placeholder's, and at that one's place. */
 static ty_outline *
 fitted_outline(const ty_outline *outline, const ty_placeholder *placeholder)
 {
-	size_t size = ty_outline_size(outline->rings, outline->points);
 	double factor = sqrt(placeholder->area / outline->area);
 	ty_point box = ty_outline_box_centre(outline, factor);
-	ty_outline *fitted = palloc(size);
+	ty_outline *fitted = ty_copy_outline(outline, CurrentMemoryContext);
 
-	memcpy(fitted, outline, size);
 	ty_outline_move(fitted, (ty_point){placeholder->x - box.x, placeholder->y - box.y}, factor);
 	return fitted;
 }
@@ -207,6 +215,46 @@ polygon_of_outline(const ty_outline *outline, int32 srid)
 	SET_VARSIZE(polygon, size);
 	ty_geometry_write_outline((unsigned char *) VARDATA(polygon), srid, outline);
 	return polygon;
+}
+
+/* Shorter detours of an outline are not seen: half of what the smallest gap between buildings is, 0.2 mm. */
+#define LEAST_DETOUR 0.1
+
+/*
+ * The outline without detours below the tolerance, where it is a valid polygon; else none. Its centre stays the
+ * building's: simplified or not, it is drawn in the same place.
+ */
+static ty_outline *
+simplified_outline(Datum geometry, double tolerance, Oid geometry_type)
+{
+	ty_outline *outline = read_outline(geometry), *simple;
+	struct varlena *polygon;
+
+	if (outline == NULL)
+		return NULL;
+	polygon = polygon_of_outline(outline, 0);
+	if (!ty_is_valid(PointerGetDatum(polygon), geometry_type))
+		return NULL;
+	simple = read_outline(ty_simplified(PointerGetDatum(polygon), tolerance, geometry_type));
+	if (simple == NULL)
+		return outline;
+	ty_outline_set_centre(simple, outline->centre);
+	pfree(outline);
+	return simple;
+}
+
+ty_outline *
+ty_outline_to_draw(Datum geometry, const ty_building *building, double importance, const ty_parameters *p,
+				   double metres_per_unit, Oid geometry_type)
+{
+	ty_parameters ground = *p;
+
+	if (p->shape == TY_FOOTPRINT)
+		return read_outline(geometry);
+	ty_bring_to_ground(&ground, metres_per_unit);
+	if (p->shape != TY_AUTO || !ty_is_kept(&ground, building->area, importance))
+		return NULL;
+	return simplified_outline(geometry, LEAST_DETOUR / 1000 * p->scale / metres_per_unit, geometry_type);
 }
 
 struct varlena *

@@ -23,10 +23,14 @@ extern bool ty_point_datum(Datum geometry, const char *argument, ty_point *point
 extern bool ty_geometry_datum_has_points(Datum geometry);
 
 /*
- * The outline of a POLYGON or of the largest polygon of a MULTIPOLYGON, in the current context; NULL for what cannot
- * be drawn with one. The geometry has been measured before.
+ * The outline that a building, which has been measured, is drawn with when it represents others, in the current context;
+ * NULL for a rectangle. footprint: that of a POLYGON or of the largest polygon of a MULTIPOLYGON. auto: that of a kept
+ * building, without what is too small to see. p: lengths in millimetres.
  */
-extern ty_outline *ty_outline_datum(Datum geometry);
+extern ty_outline *ty_outline_to_draw(Datum geometry, const ty_building *building, double importance,
+									  const ty_parameters *p, double metres_per_unit, Oid geometry_type);
+
+extern ty_outline *ty_copy_outline(const ty_outline *outline, MemoryContext context);
 
 #define TY_POLYGON_DATUM_SIZE (VARHDRSZ + TY_POLYGON_PAYLOAD)
 

@@ -154,13 +154,8 @@ open_payload(const unsigned char *payload, size_t size, cursor *c, int32_t *srid
 	return take_bytes(c, skip, &skipped);
 }
 
-/*
- * Calls of the walker below: n points that follow one another. A false answer ends the walk.
- */
-typedef bool (*points_visitor)(void *context, const unsigned char *points, size_t stride, uint32_t n);
-
 static bool
-walk_rings(cursor *c, uint32_t rings, points_visitor visit, void *context, bool *go_on)
+walk_rings(cursor *c, uint32_t rings, ty_points_visitor visit, void *context, bool *go_on)
 {
 	const unsigned char *sizes, *points;
 
@@ -180,7 +175,7 @@ walk_rings(cursor *c, uint32_t rings, points_visitor visit, void *context, bool 
 
 /* Visits all points of a geometry of any type. False: corrupt. Pending geometries are counted, not stacked. */
 static bool
-walk_points(const unsigned char *payload, size_t size, points_visitor visit, void *context)
+walk_points(const unsigned char *payload, size_t size, ty_points_visitor visit, void *context)
 {
 	const unsigned char *points;
 	uint32_t type, count;
@@ -208,6 +203,60 @@ walk_points(const unsigned char *payload, size_t size, points_visitor visit, voi
 			go_on = visit(context, points, c.stride, count);
 	}
 	return true;
+}
+
+/* The lines of a geometry that is no collection; *found where it has a point. */
+static bool
+visit_part(cursor *c, uint32_t type, uint32_t count, ty_points_visitor visit, void *context, bool *found, bool *go_on)
+{
+	const unsigned char *points;
+
+	if (type == TY_GEOMETRY_POLYGON)
+	{
+		cursor rings = *c;
+
+		*found = *found || (count > 0 && take_ring_sizes(&rings, count, &points) && ring_size(points, 0) > 0);
+		return walk_rings(c, count, visit, context, go_on);
+	}
+	if (!take_points(c, count, &points))
+		return false;
+	*found = *found || count > 0;
+	if (type == TY_GEOMETRY_LINE && count > 0)
+		*go_on = visit(context, points, c->stride, count);
+	return true;
+}
+
+ty_geometry_status
+ty_geometry_visit_lines(const unsigned char *payload, size_t size, ty_points_visitor visit, void *context,
+						int32_t *srid, uint32_t *type)
+{
+	uint32_t part, count;
+	uint64_t pending = 1;
+	bool found_points = false, found_lines = false, go_on = true, first = true;
+	cursor c;
+
+	if (!open_payload(payload, size, &c, srid))
+		return TY_GEOMETRY_CORRUPT;
+	for (; pending > 0 && go_on; pending--, first = false)
+	{
+		if (!take_type_and_count(&c, &part, &count))
+			return TY_GEOMETRY_CORRUPT;
+		if (first)
+			*type = part;
+		if (part > TY_GEOMETRY_COLLECTION && count > 0)
+		{
+			*type = part;
+			return TY_GEOMETRY_UNSUPPORTED;
+		}
+		if (types[part].kind == BODY_GEOMETRIES)
+			pending += count;
+		else if (!visit_part(&c, part, count, visit, context, part == TY_GEOMETRY_POINT ? &found_points : &found_lines,
+							 &go_on))
+			return TY_GEOMETRY_CORRUPT;
+	}
+	if (found_lines)
+		return TY_GEOMETRY_OK;
+	return found_points ? TY_GEOMETRY_UNSUPPORTED : TY_GEOMETRY_EMPTY;
 }
 
 static bool

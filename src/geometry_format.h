@@ -46,6 +46,18 @@ ty_geometry_status ty_geometry_read(const ty_environment *env, const unsigned ch
 /* Whether a geometry of any type has a point: TY_GEOMETRY_OK, TY_GEOMETRY_EMPTY or TY_GEOMETRY_CORRUPT. */
 ty_geometry_status ty_geometry_has_points(const unsigned char *payload, size_t size);
 
+/* Called for n points that follow one another, `stride` bytes apart, x and y first. False ends the walk. */
+typedef bool (*ty_points_visitor)(void *context, const unsigned char *points, size_t stride, uint32_t n);
+
+/*
+ * Visits the lines and rings of lines and polygons, single, multi or in collections of any depth, whose points are passed
+ * over. TY_GEOMETRY_EMPTY when there is nothing at all; TY_GEOMETRY_UNSUPPORTED, with its *type, for a curve, a surface
+ * or TIN anywhere, and where all there is are points. *srid and *type are set unless the status is TY_GEOMETRY_CORRUPT.
+ * The lines before what is wrong have been visited.
+ */
+ty_geometry_status ty_geometry_visit_lines(const unsigned char *payload, size_t size, ty_points_visitor visit,
+										   void *context, int32_t *srid, uint32_t *type);
+
 /*
  * For error messages: the first x or y that is NaN or infinite. False when there is none, that is when
  * TY_GEOMETRY_NOT_FINITE came from the area.

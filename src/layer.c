@@ -16,6 +16,7 @@
 #include "utils/typcache.h"
 
 #include "backend.h"
+#include "barriers.h"
 #include "core/grid.h"
 #include "geometry.h"
 #include "options.h"
@@ -31,7 +32,9 @@ typedef struct layer
 {
 	MemoryContext context;
 	int32 srid;
-	double gap;
+	double gap, line_gap;
+	ty_barrier_cache barriers;
+	ty_barrier_set *set; /* NULL: no barriers */
 	size_t count, capacity;
 	layer_row *rows;
 } layer;
@@ -51,7 +54,7 @@ enum
 };
 
 void
-ty_site_to_numbers(const ty_site *s, bool outlined, double gap, double n[SITE_NUMBERS])
+ty_site_to_numbers(const ty_site *s, bool outlined, const ty_parameters *p, double n[SITE_NUMBERS])
 {
 	n[SITE_HOME_X] = s->home.x;
 	n[SITE_HOME_Y] = s->home.y;
@@ -70,7 +73,8 @@ ty_site_to_numbers(const ty_site *s, bool outlined, double gap, double n[SITE_NU
 	n[SITE_SIZE] = s->size;
 	n[SITE_FIXED] = s->fixed;
 	n[SITE_OUTLINED] = outlined;
-	n[SITE_GAP] = gap;
+	n[SITE_GAP] = p->min_gap;
+	n[SITE_LINE_GAP] = p->min_gap + 0.5 * p->barrier_width;
 }
 
 static ty_site
@@ -124,6 +128,18 @@ numbers_of(Datum value)
 	return (const double *) ARR_DATA_PTR(array);
 }
 
+/* The barriers are those of the first row: they are the same for all. */
+static void
+take_barriers(layer *l, Datum geometry, int32 srid)
+{
+	ty_barrier_hash hash = ty_check_barriers(geometry);
+
+	if (ty_no_barriers(hash) || l->set != NULL)
+		return;
+	l->set = ty_keep_barriers_datum(&l->barriers, l->context, hash, geometry, false);
+	ty_check_barrier_srid(l->set, srid);
+}
+
 PG_FUNCTION_INFO_V1(typify_settle_transition);
 Datum
 typify_settle_transition(PG_FUNCTION_ARGS)
@@ -132,6 +148,8 @@ typify_settle_transition(PG_FUNCTION_ARGS)
 	const double *numbers;
 	layer_row *row;
 
+	if (l->count == 0 && !PG_ARGISNULL(6))
+		take_barriers(l, PG_GETARG_DATUM(6), PG_ARGISNULL(4) ? 0 : PG_GETARG_INT32(4));
 	if (PG_ARGISNULL(1) || PG_ARGISNULL(2) || PG_ARGISNULL(3) || PG_ARGISNULL(4) || PG_ARGISNULL(5))
 		PG_RETURN_POINTER(l);
 	if (l->count == l->capacity)
@@ -147,6 +165,7 @@ typify_settle_transition(PG_FUNCTION_ARGS)
 	row->site.weight = (uint32_t) PG_GETARG_INT32(3);
 	row->outlined = numbers[SITE_OUTLINED] != 0;
 	l->gap = Max(l->gap, numbers[SITE_GAP]);
+	l->line_gap = Max(l->line_gap, numbers[SITE_LINE_GAP]);
 	l->srid = PG_GETARG_INT32(4);
 	PG_RETURN_POINTER(l);
 }
@@ -178,7 +197,7 @@ settling_order(const layer *l)
 static ty_site *
 settled_sites(const layer *l, const uint32_t *order)
 {
-	ty_legibility rules = {.gap = l->gap};
+	ty_legibility rules = {.gap = l->gap, .lines = ty_lines_of_barriers(l->set), .line_gap = l->line_gap};
 	ty_site *sites = ty_allocate_array(&ty_backend_environment, l->count, sizeof *sites);
 
 	for (size_t i = 0; i < l->count; i++)

@@ -7,6 +7,7 @@
 
 #include "compat.h"
 #include "core/legibility.h"
+#include "core/placeholder.h"
 
 enum
 {
@@ -28,9 +29,12 @@ enum
 	SITE_FIXED,
 	SITE_OUTLINED,
 	SITE_GAP,
+	SITE_LINE_GAP,
 	SITE_NUMBERS
 };
 
-extern void ty_site_to_numbers(const ty_site *site, bool outlined, double gap, double numbers[SITE_NUMBERS]);
+/* p: in ground units */
+extern void ty_site_to_numbers(const ty_site *site, bool outlined, const ty_parameters *p,
+							   double numbers[SITE_NUMBERS]);
 
 #endif

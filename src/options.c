@@ -15,7 +15,7 @@
 #include "utils/typcache.h"
 
 #include "backend.h"
-#include "geometry.h"
+#include "barriers.h"
 
 /* in the order of the composite's fields */
 typedef enum option
@@ -47,13 +47,13 @@ typedef enum option_kind
 	NUMBER_TO_1,
 	INTEGER_FROM_1,
 	WORD,
-	GEOMETRY
+	LINES
 } option_kind;
 
 typedef enum option_state
 {
 	BUILT,
-	OFF_OR_UNBUILT, /* 0, or an empty geometry, means off; any other value is not supported yet */
+	OFF_OR_UNBUILT, /* 0 means off; any other value is not supported yet */
 	UNBUILT
 } option_state;
 
@@ -88,21 +88,22 @@ static const option_entry entries[OPTIONS] = {
 	 .kind = WORD,
 	 .words = {"rectangle", "square", "footprint", "auto"},
 	 .choice = "rectangle, square, footprint or auto",
-	 .built_words = 3},
-	{.name = "min_area", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
+	 .built_words = 4},
+	{.name = "min_area", .kind = NUMBER_FROM_0},
 	{.name = "min_side", .kind = NUMBER_FROM_0},
 	{.name = "max_area", .kind = NUMBER_FROM_0},
-	{.name = "keep_area", .kind = NUMBER_FROM_0, .state = UNBUILT},
+	{.name = "keep_area", .kind = NUMBER_FROM_0},
 	{.name = "min_gap", .kind = NUMBER_FROM_0},
-	{.name = "alignment", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
-	{.name = "barriers", .kind = GEOMETRY, .state = OFF_OR_UNBUILT},
-	{.name = "barrier_width", .kind = NUMBER_FROM_0, .state = OFF_OR_UNBUILT},
+	{.name = "alignment", .kind = NUMBER_FROM_0},
+	{.name = "barriers", .kind = LINES},
+	{.name = "barrier_width", .kind = NUMBER_FROM_0},
 };
 
 typedef struct option_values
 {
 	Datum value[OPTIONS];
 	bool null[OPTIONS];
+	ty_barrier_hash barriers; /* once checked */
 } option_values;
 
 void
@@ -158,7 +159,7 @@ word_index(const option_entry *entry, Datum value)
 }
 
 static void
-check_value(const option_entry *entry, Datum value)
+check_value(const option_entry *entry, Datum value, option_values *options)
 {
 	switch (entry->kind)
 	{
@@ -170,7 +171,8 @@ check_value(const option_entry *entry, Datum value)
 		case WORD:
 			word_index(entry, value);
 			break;
-		case GEOMETRY:
+		case LINES:
+			options->barriers = ty_check_barriers(value);
 			break;
 		default:
 			check_number(entry, DatumGetFloat8(value));
@@ -191,22 +193,17 @@ word_or(const option_values *options, option field, int unset)
 
 /* Every value by itself, then the two scales against one another. */
 static void
-check_options(const option_values *options)
+check_options(option_values *options)
 {
 	double source = number_or(options, OPTION_SOURCE_SCALE, TY_DEFAULT_SOURCE_SCALE);
 	double lod200 = number_or(options, OPTION_LOD200_SCALE, TY_DEFAULT_LOD200_SCALE);
 
+	options->barriers = (ty_barrier_hash){0, 0};
 	for (int field = 0; field < OPTIONS; field++)
 		if (!options->null[field])
-			check_value(&entries[field], options->value[field]);
+			check_value(&entries[field], options->value[field], options);
 	if (!(lod200 > source))
 		ty_refuse_value("lod200_scale", lod200, psprintf("larger than source_scale (%s)", ty_number_text(source)));
-}
-
-static bool
-value_is_off(const option_entry *entry, Datum value)
-{
-	return entry->kind == GEOMETRY ? !ty_geometry_datum_has_points(value) : DatumGetFloat8(value) == 0;
 }
 
 static bool
@@ -215,7 +212,7 @@ value_is_built(const option_entry *entry, Datum value)
 	if (entry->state == UNBUILT)
 		return false;
 	if (entry->state == OFF_OR_UNBUILT)
-		return value_is_off(entry, value);
+		return DatumGetFloat8(value) == 0;
 	return entry->kind != WORD || word_index(entry, value) < entry->built_words;
 }
 
@@ -278,9 +275,23 @@ apply_options(const option_values *options, ty_parameters *p)
 	p->count_rule = (ty_count_rule) word_or(options, OPTION_COUNT_RULE, TY_RADICAL);
 	p->area_statistic = (ty_area_statistic) word_or(options, OPTION_AREA_STATISTIC, TY_MEAN);
 	p->shape = (ty_shape) word_or(options, OPTION_SHAPE, TY_RECTANGLE);
+	p->min_area = number_or(options, OPTION_MIN_AREA, 0);
+	p->alignment = number_or(options, OPTION_ALIGNMENT, 0);
 	p->min_side = number_or(options, OPTION_MIN_SIDE, 0);
 	p->max_area = number_or(options, OPTION_MAX_AREA, TY_DEFAULT_MAX_AREA_SIDES * p->min_side * p->min_side);
 	p->min_gap = number_or(options, OPTION_MIN_GAP, 0);
+	p->barrier_width = number_or(options, OPTION_BARRIER_WIDTH, 0);
+	p->barriers = options->barriers;
+	p->keep_area = number_or(options, OPTION_KEEP_AREA, 0);
+}
+
+Datum
+ty_barriers_of_options(Datum composite)
+{
+	option_values options;
+
+	take_apart(composite, &options);
+	return options.value[OPTION_BARRIERS];
 }
 
 void
@@ -289,6 +300,7 @@ ty_resolve_parameters(double scale, double s_u, Datum composite, bool composite_
 	option_values options;
 
 	memset(options.null, true, sizeof(options.null));
+	options.barriers = (ty_barrier_hash){0, 0};
 	if (!composite_null)
 	{
 		take_apart(composite, &options);
@@ -318,7 +330,9 @@ ty_same_parameters(const ty_parameters *a, const ty_parameters *b)
 		   a->lod200_scale == b->lod200_scale && a->exponent == b->exponent && a->psi == b->psi &&
 		   a->min_distance == b->min_distance && a->count == b->count && a->law == b->law &&
 		   a->count_rule == b->count_rule && a->area_statistic == b->area_statistic && a->shape == b->shape &&
-		   a->min_side == b->min_side && a->max_area == b->max_area && a->min_gap == b->min_gap;
+		   a->min_area == b->min_area && a->alignment == b->alignment && a->min_side == b->min_side &&
+		   a->max_area == b->max_area && a->keep_area == b->keep_area && a->min_gap == b->min_gap && a->barrier_width == b->barrier_width &&
+		   a->barriers.low == b->barriers.low && a->barriers.high == b->barriers.high;
 }
 
 /* Dropped attributes, which the shape may have behind the fields, are null. */

@@ -17,6 +17,9 @@
 extern void ty_resolve_parameters(double scale, double s_u, Datum options, bool options_null,
 								  ty_parameters *parameters);
 
+/* The lines of options whose parameters have barriers. */
+extern Datum ty_barriers_of_options(Datum options);
+
 extern bool ty_same_parameters(const ty_parameters *a, const ty_parameters *b);
 
 /*

@@ -7,16 +7,18 @@
 #include "backend.h"
 #include "call.h"
 #include "core/mesh.h"
+#include "geometry.h"
 #include "options.h"
 #include "srid.h"
 
-/* The array's first size in bytes, good for nine buildings: there may be 100 000 groups of about that many. */
-#define FIRST_SIZE 512
+/* The first buildings lie behind the state, in one piece of this size: there may be 100 000 groups of about ten. */
+#define STATE_SIZE 1024
+#define FIRST_BUILDINGS ((STATE_SIZE - offsetof(ty_state, first)) / sizeof(ty_building))
 
 /*
- * A state as it travels between the processes of one parallel query: this header, then the buildings, then the
- * outlines, each behind the number of its building. Both sides run the same library on the same machine, so values
- * are copied as they are.
+ * A state as it travels between the processes of one parallel query: this header, then the buildings, then their
+ * importances if there are any, then the outlines, each behind the number of its building, then the geometry of barriers that are not constant for the query.
+ * Both sides run the same library on the same machine, so values are copied as they are.
  */
 typedef struct state_image
 {
@@ -25,18 +27,20 @@ typedef struct state_image
 	int32 srid;
 	Oid geometry_type;
 	uint64 count, outlines;
+	uint64 barriers_size;  /* 0: none, or only their hash */
+	uint64 has_importance; /* 0 or 1 */
 	double metres_per_unit;
 	ty_parameters parameters;
 } state_image;
 
-#define STATE_MAGIC 0x54590003 /* the last byte is the version */
+#define STATE_MAGIC 0x54590005 /* the last byte is the version */
 
 /* Makes an empty state in the context. */
 ty_state *
 ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid, double metres_per_unit,
 			 Oid geometry_type)
 {
-	ty_state *s = MemoryContextAlloc(context, sizeof(ty_state));
+	ty_state *s = MemoryContextAlloc(context, STATE_SIZE);
 
 	s->context = context;
 	s->parameters = *parameters;
@@ -44,9 +48,12 @@ ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid,
 	s->srid = srid;
 	s->metres_per_unit = metres_per_unit;
 	s->geometry_type = geometry_type;
-	s->count = s->capacity = 0;
-	s->buildings = NULL;
+	s->count = 0;
+	s->capacity = FIRST_BUILDINGS;
+	s->buildings = s->first;
 	s->outlines = NULL;
+	s->importance = NULL;
+	s->barriers = NULL;
 	return s;
 }
 
@@ -54,7 +61,7 @@ ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid,
 void
 ty_state_reserve(ty_state *s, size_t more)
 {
-	size_t size = FIRST_SIZE;
+	size_t size = 2 * STATE_SIZE;
 
 	if (more <= s->capacity - s->count)
 		return;
@@ -62,13 +69,44 @@ ty_state_reserve(ty_state *s, size_t more)
 		ty_check_status(TY_TOO_MANY);
 	while (size / sizeof(ty_building) < s->count + more)
 		size *= 2;
-	if (s->buildings == NULL)
+	if (s->buildings == s->first)
+	{
 		s->buildings = MemoryContextAllocHuge(s->context, size);
+		memcpy(s->buildings, s->first, s->count * sizeof(ty_building));
+	}
 	else
 		s->buildings = repalloc_huge(s->buildings, size);
 	s->capacity = size / sizeof(ty_building);
 	if (s->outlines != NULL)
 		s->outlines = repalloc_huge(s->outlines, s->capacity * sizeof(ty_outline *));
+	if (s->importance != NULL)
+		s->importance = repalloc_huge(s->importance, s->capacity * sizeof(double));
+}
+
+/* --- importances --- */
+
+/* Sets the importances of the buildings from number `from` on to 1. */
+static void
+clear_importance(ty_state *s, size_t from)
+{
+	for (size_t i = from; i < s->count; i++)
+		s->importance[i] = 1;
+}
+
+static void
+begin_importance(ty_state *s)
+{
+	if (s->importance != NULL)
+		return;
+	s->importance = MemoryContextAllocHuge(s->context, s->capacity * sizeof(double));
+	clear_importance(s, 0);
+}
+
+void
+ty_state_set_importance(ty_state *s, double importance)
+{
+	begin_importance(s);
+	s->importance[s->count - 1] = importance;
 }
 
 /* --- outlines --- */
@@ -91,29 +129,17 @@ begin_outlines(ty_state *s)
 	clear_outlines(s, 0);
 }
 
-void
-ty_state_give_outline(ty_state *s, ty_outline *outline)
-{
-	if (outline == NULL)
-		return;
-	begin_outlines(s);
-	s->outlines[s->count - 1] = outline;
-}
-
 static size_t
 outline_bytes(const ty_outline *outline)
 {
 	return ty_outline_size(outline->rings, outline->points);
 }
 
-/* Puts a copy of the outline into the state's context. */
-static ty_outline *
-copy_outline(const ty_state *s, const ty_outline *outline)
+void
+ty_state_give_outline(ty_state *s, const ty_outline *outline)
 {
-	ty_outline *copy = MemoryContextAllocHuge(s->context, outline_bytes(outline));
-
-	memcpy(copy, outline, outline_bytes(outline));
-	return copy;
+	begin_outlines(s);
+	s->outlines[s->count - 1] = ty_copy_outline(outline, s->context);
 }
 
 /* How many outlines a state has, and what they take as they travel. */
@@ -191,6 +217,16 @@ ty_state_append(ty_state *s, const ty_building *buildings, size_t count)
 	s->count += count;
 	if (s->outlines != NULL)
 		clear_outlines(s, s->count - count);
+	if (s->importance != NULL)
+		clear_importance(s, s->count - count);
+}
+
+/* Sets the importances of the last buildings. */
+static void
+set_importances(ty_state *s, const void *importance, size_t count)
+{
+	begin_importance(s);
+	memcpy(s->importance + s->count - count, importance, count * sizeof(double));
 }
 
 /* Appends a copy of what b holds; b stays as it is. */
@@ -201,12 +237,14 @@ ty_state_merge(ty_state *a, const ty_state *b)
 	if (!ty_same_parameters(&a->parameters, &b->parameters))
 		ty_refuse_varying_parameters();
 	ty_state_append(a, b->buildings, b->count);
+	if (b->importance != NULL)
+		set_importances(a, b->importance, b->count);
 	if (b->outlines == NULL)
 		return;
 	begin_outlines(a);
 	for (size_t i = 0; i < b->count; i++)
 		if (b->outlines[i] != NULL)
-			a->outlines[a->count - b->count + i] = copy_outline(a, b->outlines[i]);
+			a->outlines[a->count - b->count + i] = ty_copy_outline(b->outlines[i], a->context);
 }
 
 /* In the current context; an error where a bytea cannot hold it. */
@@ -214,9 +252,13 @@ bytea *
 ty_state_serialize(const ty_state *s)
 {
 	size_t outlines_size, outlines = count_outlines(s, &outlines_size);
-	size_t size = VARHDRSZ + sizeof(state_image) + s->count * sizeof(ty_building) + outlines_size;
+	size_t buildings_size = s->count * sizeof(ty_building);
+	size_t importance_size = s->importance == NULL ? 0 : s->count * sizeof(double);
+	size_t barriers_size = s->barriers == NULL || s->barriers->constant ? 0 : s->barriers->size;
+	size_t size = VARHDRSZ + sizeof(state_image) + buildings_size + importance_size + outlines_size + barriers_size;
 	state_image image;
 	bytea *value;
+	char *at;
 
 	if (!AllocSizeIsValid(size))
 		ereport(ERROR, errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
@@ -228,18 +270,24 @@ ty_state_serialize(const ty_state *s)
 	image.srid = s->srid;
 	image.count = s->count;
 	image.outlines = outlines;
+	image.barriers_size = barriers_size;
+	image.has_importance = s->importance != NULL;
 	image.metres_per_unit = s->metres_per_unit;
 	image.geometry_type = s->geometry_type;
 	image.parameters = s->parameters;
 	value = palloc(size);
 	SET_VARSIZE(value, size);
-	memcpy(VARDATA(value), &image, sizeof(image));
-	memcpy(VARDATA(value) + sizeof(image), s->buildings, s->count * sizeof(ty_building));
-	write_outlines(s, VARDATA(value) + sizeof(image) + s->count * sizeof(ty_building));
+	at = VARDATA(value);
+	memcpy(at, &image, sizeof(image));
+	memcpy(at + sizeof(image), s->buildings, buildings_size);
+	if (s->importance != NULL)
+		memcpy(at + sizeof(image) + buildings_size, s->importance, importance_size);
+	write_outlines(s, at + sizeof(image) + buildings_size + importance_size);
+	if (barriers_size > 0)
+		memcpy(at + size - VARHDRSZ - barriers_size, s->barriers->payload, barriers_size);
 	return value;
 }
 
-/* Makes the state in the current context; nothing of the value is kept. */
 static void
 refuse_image(void)
 {
@@ -247,24 +295,46 @@ refuse_image(void)
 			errmsg("a typify state is from another version, or broken"));
 }
 
-ty_state *
-ty_state_deserialize(bytea *value)
+/* Of the header, once what it says has been held against the size of the value. */
+static state_image
+read_header(const char *at, size_t size)
 {
-	size_t size = VARSIZE_ANY_EXHDR(value), buildings_size;
-	const char *buildings = VARDATA_ANY(value) + sizeof(state_image);
 	state_image image;
-	ty_state *s;
 
 	if (size < sizeof(image))
 		ereport(ERROR, errcode(ERRCODE_INVALID_BINARY_REPRESENTATION), errmsg("a typify state is truncated"));
-	memcpy(&image, VARDATA_ANY(value), sizeof(image));
-	buildings_size = image.count * sizeof(ty_building);
+	memcpy(&image, at, sizeof(image));
 	if (image.magic != STATE_MAGIC || image.building_size != sizeof(ty_building) || image.count == 0 ||
-		image.count > TY_MAX_VERTICES || size - sizeof(image) < buildings_size)
+		image.count > TY_MAX_VERTICES || image.has_importance > 1)
 		refuse_image();
-	s = ty_state_new(CurrentMemoryContext, &image.parameters, image.srid, image.metres_per_unit, image.geometry_type);
-	ty_state_append(s, (const ty_building *) buildings, image.count);
-	if (!read_outlines(s, image.outlines, buildings + buildings_size, size - sizeof(image) - buildings_size))
+	size -= sizeof(image);
+	if (size < image.count * (sizeof(ty_building) + image.has_importance * sizeof(double)) ||
+		size - image.count * (sizeof(ty_building) + image.has_importance * sizeof(double)) < image.barriers_size)
 		refuse_image();
+	return image;
+}
+
+ty_state *
+ty_state_deserialize(bytea *value)
+{
+	size_t left = VARSIZE_ANY_EXHDR(value);
+	state_image image = read_header(VARDATA_ANY(value), left);
+	const char *at = VARDATA_ANY(value) + sizeof(image);
+	ty_state *s =
+		ty_state_new(CurrentMemoryContext, &image.parameters, image.srid, image.metres_per_unit, image.geometry_type);
+
+	ty_state_append(s, (const ty_building *) at, image.count);
+	at += image.count * sizeof(ty_building);
+	if (image.has_importance)
+	{
+		set_importances(s, at, image.count);
+		at += image.count * sizeof(double);
+	}
+	left -= at - VARDATA_ANY(value) + image.barriers_size;
+	if (!read_outlines(s, image.outlines, at, left))
+		refuse_image();
+	if (image.barriers_size > 0)
+		s->barriers = ty_keep_barriers(palloc0(sizeof(ty_barrier_cache)), CurrentMemoryContext,
+									   image.parameters.barriers, at + left, image.barriers_size, false);
 	return s;
 }

@@ -4,6 +4,7 @@
 #ifndef TY_STATE_H
 #define TY_STATE_H
 
+#include "barriers.h"
 #include "compat.h"
 #include "core/measure.h"
 #include "core/outline.h"
@@ -11,16 +12,20 @@
 
 typedef struct ty_state
 {
-	MemoryContext context; /* of the state and its array */
-	ty_parameters parameters;
-	uint64 generation; /* of the call's parameters when they were last found equal to these */
+	/* what a row needs is in one cache line: the rows of many small groups come in any order and wait for memory */
+	size_t count, capacity;
+	ty_building *buildings; /* the first ones, or an array of their own */
+	uint64 generation;		/* of the call's parameters when they were last found equal to these */
 	int32 srid;
 	Oid geometry_type;
 	double metres_per_unit; /* of the SRID */
-	size_t count, capacity;
-	ty_building *buildings;
+	MemoryContext context;	/* of the state and its arrays */
+	ty_parameters parameters;
 	/* [capacity] what placeholders are drawn with, NULL for a building that has none; NULL while no building has one */
 	ty_outline **outlines;
+	double *importance;		  /* [capacity] of the buildings; NULL as long as all are 1 */
+	ty_barrier_set *barriers; /* of the parameters; NULL too in a state that another process sent without them */
+	ty_building first[FLEXIBLE_ARRAY_MEMBER];
 } ty_state;
 
 /* Makes an empty state in the context. */
@@ -30,8 +35,11 @@ extern ty_state *ty_state_new(MemoryContext context, const ty_parameters *parame
 /* Room for more buildings behind the last one. */
 extern void ty_state_reserve(ty_state *s, size_t more);
 
-/* The state's last building has an outline, or NULL: memory of the state's context, which from now on is its own. */
-extern void ty_state_give_outline(ty_state *s, ty_outline *outline);
+/* The state's last building is drawn with a copy of this outline. */
+extern void ty_state_give_outline(ty_state *s, const ty_outline *outline);
+
+/* Sets the importance of the last building, which is 1 otherwise. */
+extern void ty_state_set_importance(ty_state *s, double importance);
 
 static inline void
 ty_state_add(ty_state *s, const ty_building *building)
@@ -41,12 +49,14 @@ ty_state_add(ty_state *s, const ty_building *building)
 	s->buildings[s->count++] = *building;
 	if (unlikely(s->outlines != NULL))
 		s->outlines[s->count - 1] = NULL;
+	if (unlikely(s->importance != NULL))
+		s->importance[s->count - 1] = 1;
 }
 
 /* Raises the error of two SRIDs in a group where the state's is another. */
 extern void ty_state_check_srid(const ty_state *s, int32 srid);
 
-/* Appends a copy of what b holds; b stays as it is. */
+/* Appends a copy of what b holds but for its barriers, which a must have; b stays as it is. */
 extern void ty_state_merge(ty_state *a, const ty_state *b);
 
 /* In the current context; an error where a bytea cannot hold it. */

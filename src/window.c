@@ -21,6 +21,7 @@
 
 #define GEOMETRY 0
 #define PARAMETERS 1
+#define PARAMETER_COUNT 3
 
 #define NO_CLUSTER (-1) /* a row without geometry */
 
@@ -35,13 +36,17 @@ typedef struct partition
 typedef struct gathering
 {
 	ty_call *call;
+	int64 rows;
 	ty_parameters parameters;
 	uint64 generation; /* of the call's parameters at the first building; 0: there is none yet */
 	int32 srid;
 	double metres_per_unit; /* of the SRID */
+	ty_barrier_set *barriers;
 	size_t count;
 	ty_building *buildings; /* [rows], of which count are taken */
+	ty_outline **outlines;	/* [rows] of the buildings; NULL as a whole where the shape needs none */
 	bool *usable;			/* [rows] whether the row has a building */
+	MemoryContext context;	/* of all that */
 } gathering;
 
 static NullableDatum
@@ -75,11 +80,25 @@ check_row(gathering *g, WindowObject window, int64 row, int32 srid)
 		g->parameters = call->parameters;
 		g->generation = call->generation;
 		g->srid = srid;
+		g->barriers = call->barriers.current;
+		ty_check_barrier_srid(g->barriers, srid);
 	}
 	if (g->generation != call->generation)
 		ty_refuse_varying_parameters();
 	if (g->srid != srid)
 		ty_refuse_two_srids(g->srid, srid);
+}
+
+/* The next building's outline: how much room its placeholder needs is what tells who is merged for want of it. */
+static void
+gather_outline(gathering *g, Datum geometry)
+{
+	ty_outline *outline = ty_outline_to_draw(geometry, &g->buildings[g->count], 1, &g->parameters, g->metres_per_unit,
+											 g->call->srids.geometry_type);
+
+	if (g->outlines == NULL)
+		g->outlines = MemoryContextAllocHuge(g->context, g->rows * sizeof(ty_outline *));
+	g->outlines[g->count] = outline == NULL ? NULL : ty_copy_outline(outline, g->context);
 }
 
 /* Takes the row's building in; false when it has none. */
@@ -95,7 +114,10 @@ gather_row(gathering *g, WindowObject window, int64 row)
 		return false;
 	building.id = (int64) hash;
 	check_row(g, window, row, srid);
-	g->buildings[g->count++] = building;
+	g->buildings[g->count] = building;
+	if (unlikely(ty_wants_outline(&g->parameters)))
+		gather_outline(g, geometry.value);
+	g->count++;
 	return true;
 }
 
@@ -125,7 +147,11 @@ typify_gathered(gathering *g, ty_result *result)
 	if (g->count > 0)
 	{
 		ty_bring_to_ground(&g->parameters, g->metres_per_unit);
-		ty_typify_group(&(ty_input){.buildings = g->buildings, .n = g->count}, &g->parameters, result);
+		ty_typify_group(&(ty_input){.buildings = g->buildings,
+									.n = g->count,
+									.outlines = g->outlines,
+									.barriers = ty_lines_of_barriers(g->barriers)},
+						&g->parameters, result);
 	}
 	pfree(g->buildings);
 }
@@ -151,7 +177,7 @@ static int32 *
 cluster_partition(ty_call *call, WindowObject window, MemoryContext context)
 {
 	int64 rows = WinGetPartitionRowCount(window);
-	gathering g = {.call = call};
+	gathering g = {.call = call, .rows = rows, .context = CurrentMemoryContext};
 	ty_result result;
 	int32 *cluster;
 
@@ -181,7 +207,10 @@ typify_cluster(PG_FUNCTION_ARGS)
 	p = WinGetPartitionLocalMemory(window, sizeof(partition));
 	if (!p->done)
 	{
-		p->cluster = cluster_partition(ty_call_of(fcinfo, PARAMETERS, GEOMETRY), window, GetMemoryChunkContext(p));
+		ty_call *call = ty_call_of(fcinfo, PARAMETERS, PARAMETER_COUNT, GEOMETRY);
+
+		call->group_context = GetMemoryChunkContext(p);
+		p->cluster = cluster_partition(call, window, GetMemoryChunkContext(p));
 		p->done = true;
 	}
 	cluster = p->cluster[WinGetCurrentPosition(window)];

@@ -84,7 +84,7 @@ ty_join(ty_run *run, uint32_t kept, uint32_t gone, ty_position former, ty_positi
 
 		run->rest[kept] = rest_of((sum){s.x + t.x, s.y + t.y}, run->vertex[kept].size + run->vertex[gone].size, to);
 	}
-	if (__builtin_expect(run->row != NULL, 0))
+	if (__builtin_expect(run->rows != NULL, 0))
 		ty_join_rows(run, kept, gone);
 	run->vertex[kept].size += run->vertex[gone].size;
 }
@@ -364,31 +364,42 @@ prepare_mesh(ty_run *run, uint64_t *keys, ty_stop stop)
 }
 
 static ty_status
-compute_keys(const ty_run *run, uint64_t *keys)
+compute_keys(ty_run *run)
 {
+	run->keys = ty_allocate_array(run->env, run->n, sizeof *run->keys);
+	if (run->keys == NULL)
+		return TY_NO_MEMORY;
 	for (size_t v = 0; v < run->n; v++)
 	{
 		if (ty_interrupted_at(run->env, v))
 			return TY_INTERRUPTED;
-		keys[v] = ty_hilbert_key(run->vertex[v].position);
+		run->keys[v] = ty_hilbert_key(run->vertex[v].position);
 	}
 	return TY_OK;
+}
+
+static void
+free_keys(ty_run *run)
+{
+	ty_release(run->env, run->keys);
+	run->keys = NULL;
 }
 
 /* Mesh and queue; none where the merges at cost 0 were enough. */
 static ty_status
 prepare(ty_run *run, ty_stop stop)
 {
-	uint64_t *keys = ty_allocate_array(run->env, run->n, sizeof *keys);
-	ty_status status = keys == NULL ? TY_NO_MEMORY : compute_keys(run, keys);
+	ty_status status = run->keys == NULL ? compute_keys(run) : TY_OK;
 
 	if (status == TY_OK)
-		status = prepare_mesh(run, keys, stop);
-	ty_release(run->env, keys);
+		status = prepare_mesh(run, run->keys, stop);
+	free_keys(run);
 	if (status != TY_OK || run->mesh.env == NULL)
 		return status;
 	/* only now is there room for what the merges take: at the peak every array counts */
 	status = reserve_sequence(run, run->n - least_vertices(stop));
+	if (status == TY_OK)
+		status = ty_influence_find_rows(run);
 	return status == TY_OK ? ty_queue_begin(run) : status;
 }
 
@@ -428,44 +439,77 @@ free_run(ty_run *run)
 	ty_release(run->env, run->vertex);
 	ty_release(run->env, run->near);
 	ty_influence_free(run);
+	free_keys(run);
+}
+
+static ty_status
+collapse_few(ty_run *run, ty_stop stop)
+{
+	ty_status status = reserve_sequence(run, run->n - least_vertices(stop));
+
+	if (status == TY_OK)
+		ty_collapse_few(run, stop);
+	return status;
+}
+
+static ty_status
+collapse_many(ty_run *run, ty_stop stop)
+{
+	ty_status status = prepare(run, stop);
+
+	return status == TY_OK && run->mesh.env != NULL ? collapse_all(run, stop) : status;
+}
+
+static ty_status
+collapse(ty_run *run, ty_position *position, ty_stop stop)
+{
+	ty_status status = allocate_run(run, position, stop.min_distance > 0);
+
+	if (status == TY_OK && run->influence != NULL)
+		status = ty_influence_begin(run, run->influence);
+	if (status == TY_OK && run->n <= TY_FEW && run->influence == NULL && run->after_merge == NULL)
+		status = collapse_few(run, stop);
+	else if (status == TY_OK)
+		status = collapse_many(run, stop);
+	free_mesh_and_queue(run);
+	if (status == TY_OK)
+		status = list_kept(run);
+	for (size_t v = 0; status == TY_OK && v < run->n; v++)
+		position[v] = run->vertex[v].position;
+	return status;
+}
+
+ty_status
+ty_collapse_keyed(const ty_environment *env, ty_position *position, uint64_t *keys, size_t n, double s_u,
+				  const ty_influence *influence, ty_stop stop, bool with_cost, ty_after_merge after_merge,
+				  void *context, ty_sequence *sequence)
+{
+	ty_run run = {.env = env,
+				  .n = n,
+				  .s_u = s_u,
+				  .keys = keys,
+				  .influence = influence,
+				  .min_distance = stop.min_distance,
+				  .with_cost = with_cost,
+				  .sequence = sequence,
+				  .after_merge = after_merge,
+				  .context = context};
+	ty_status status = n > TY_MAX_VERTICES ? TY_TOO_MANY : TY_OK;
+
+	*sequence = (ty_sequence){0};
+	if (status == TY_OK && n > least_vertices(stop))
+		status = collapse(&run, position, stop);
+	free_run(&run);
+	if (status != TY_OK)
+		ty_sequence_free(env, sequence);
+	return status;
 }
 
 ty_status
 ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s_u, const ty_influence *influence,
 			ty_stop stop, bool with_cost, ty_after_merge after_merge, void *context, ty_sequence *sequence)
 {
-	ty_run run = {.env = env,
-				  .n = n,
-				  .s_u = s_u,
-				  .min_distance = stop.min_distance,
-				  .with_cost = with_cost,
-				  .sequence = sequence,
-				  .after_merge = after_merge,
-				  .context = context};
-	ty_status status = TY_OK;
-
-	*sequence = (ty_sequence){0};
-	if (n > TY_MAX_VERTICES)
-		return TY_TOO_MANY;
-	if (n > least_vertices(stop))
-	{
-		status = allocate_run(&run, position, stop.min_distance > 0);
-		if (status == TY_OK && influence != NULL)
-			status = ty_influence_begin(&run, influence);
-		if (status == TY_OK)
-			status = prepare(&run, stop);
-		if (status == TY_OK && run.mesh.env != NULL)
-			status = collapse_all(&run, stop);
-		free_mesh_and_queue(&run);
-		if (status == TY_OK)
-			status = list_kept(&run);
-		for (size_t v = 0; status == TY_OK && v < n; v++)
-			position[v] = run.vertex[v].position;
-		free_run(&run);
-	}
-	if (status != TY_OK)
-		ty_sequence_free(env, sequence);
-	return status;
+	return ty_collapse_keyed(env, position, NULL, n, s_u, influence, stop, with_cost, after_merge, context, sequence);
 }
 
 void

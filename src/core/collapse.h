@@ -37,6 +37,13 @@ typedef void (*ty_after_merge)(void *context, const ty_mesh *mesh, size_t step);
 ty_status ty_collapse(const ty_environment *env, ty_position *position, size_t n, double s_u,
 					  const ty_influence *influence, ty_stop stop, bool with_cost, ty_after_merge after_merge,
 					  void *context, ty_sequence *sequence);
+/*
+ * The same for whom already has the positions' Hilbert keys: an array of env, which the collapse frees when it needs it
+ * no longer, whatever comes of it.
+ */
+ty_status ty_collapse_keyed(const ty_environment *env, ty_position *position, uint64_t *keys, size_t n, double s_u,
+							const ty_influence *influence, ty_stop stop, bool with_cost, ty_after_merge after_merge,
+							void *context, ty_sequence *sequence);
 void ty_sequence_free(const ty_environment *env, ty_sequence *sequence);
 
 /*

@@ -26,6 +26,34 @@ copy_importances(ty_run *run, const double *importance)
 	return TY_OK;
 }
 
+static bool
+in_row(const ty_run *run, uint32_t v)
+{
+	return run->in_row[v / 8] >> v % 8 & 1;
+}
+
+static void
+set_in_row(ty_run *run, uint32_t v)
+{
+	uint8_t bit = (uint8_t) (1 << v % 8);
+
+	run->in_row[v / 8] = run->rows->span[v].row != TY_NONE ? run->in_row[v / 8] | bit : run->in_row[v / 8] & ~bit;
+}
+
+/* The influence's rows are known. */
+static ty_status
+take_rows(ty_run *run)
+{
+	run->in_row = ty_allocate_array(run->env, run->n / 8 + 1, 1);
+	if (run->in_row == NULL)
+		return TY_NO_MEMORY;
+	memset(run->in_row, 0, run->n / 8 + 1);
+	run->rows = run->influence->rows;
+	for (uint32_t v = 0; v < run->n; v++)
+		set_in_row(run, v);
+	return TY_OK;
+}
+
 ty_status
 ty_influence_begin(ty_run *run, const ty_influence *influence)
 {
@@ -34,13 +62,8 @@ ty_influence_begin(ty_run *run, const ty_influence *influence)
 	run->influence = influence;
 	if (influence->importance != NULL)
 		status = copy_importances(run, influence->importance);
-	if (status == TY_OK && influence->row != NULL)
-	{
-		run->row = ty_allocate_array(run->env, run->n, sizeof *run->row);
-		if (run->row == NULL)
-			return TY_NO_MEMORY;
-		memcpy(run->row, influence->row, run->n * sizeof *run->row);
-	}
+	if (status == TY_OK && influence->find_rows == NULL && influence->rows != NULL)
+		status = take_rows(run);
 	return status;
 }
 
@@ -49,7 +72,19 @@ ty_influence_free(ty_run *run)
 {
 	ty_release(run->env, run->importance);
 	ty_release(run->env, run->weighted);
-	ty_release(run->env, run->row);
+	ty_release(run->env, run->in_row);
+}
+
+ty_status
+ty_influence_find_rows(ty_run *run)
+{
+	const ty_influence *influence = run->influence;
+	ty_status status = TY_OK;
+
+	if (influence == NULL || influence->rows == NULL || influence->find_rows == NULL)
+		return TY_OK;
+	status = influence->find_rows(influence->context, &run->mesh, influence->rows);
+	return status == TY_OK && influence->rows->count > 0 ? take_rows(run) : status;
 }
 
 /* ---- costs ---- */
@@ -63,6 +98,21 @@ importance_factor(double a, double b)
 	return b == INFINITY || b < a ? a : b;
 }
 
+/* how much longer an edge counts for the rows of its ends */
+static double
+row_factor(const ty_run *run, uint32_t a, uint32_t b)
+{
+	double length = sqrt((double) ty_squared_distance(run->vertex[a].position, run->vertex[b].position));
+
+	uint64_t size = (uint64_t) run->vertex[a].size + run->vertex[b].size;
+
+	if (!(length > 0))
+		return 1;
+	return ty_aligned_length(run->rows, run->rows->span[a], run->rows->span[b], size, length,
+							 run->influence->alignment) /
+		   length;
+}
+
 double
 ty_influenced_cost(const ty_run *run, uint32_t a, uint32_t b, double cost)
 {
@@ -74,8 +124,8 @@ ty_influenced_cost(const ty_run *run, uint32_t a, uint32_t b, double cost)
 			return INFINITY;
 		cost *= factor;
 	}
-	if (run->row != NULL && run->row[a] != run->row[b])
-		cost *= 1 + run->influence->alignment;
+	if (run->rows != NULL && (in_row(run, a) || in_row(run, b)))
+		cost *= row_factor(run, a, b);
 	return cost < DBL_MAX ? cost : DBL_MAX;
 }
 
@@ -128,12 +178,13 @@ ty_join_weighted(ty_run *run, uint32_t kept, uint32_t gone, ty_position former, 
 		(int64_t) (moment(v->weight, former.y, v->rest_y) + moment(w->weight, q.y, w->rest_y) - (wide) weight * to.y)};
 }
 
-/* A vertex of one row, alone or with buildings of none, goes on in it. */
 void
 ty_join_rows(ty_run *run, uint32_t kept, uint32_t gone)
 {
-	if (run->row[kept] == TY_NO_ROW)
-		run->row[kept] = run->row[gone];
-	else if (run->row[gone] != TY_NO_ROW && run->row[gone] != run->row[kept])
-		run->row[kept] = TY_NO_ROW;
+	ty_span *span = run->rows->span;
+
+	if (!in_row(run, kept) && !in_row(run, gone))
+		return;
+	span[kept] = ty_joined_span(span[kept], span[gone], (uint64_t) run->vertex[kept].size + run->vertex[gone].size);
+	set_in_row(run, kept);
 }

@@ -26,22 +26,11 @@
 
 /* ---- cost and order ---- */
 
-/* f_a * distance (paper; symmetric form of spec 2.3) */
-static inline double
-plain_cost(const ty_run *run, uint32_t a, uint32_t b)
-{
-	const ty_vertex *p = &run->vertex[a], *q = &run->vertex[b];
-	double length = sqrt((double) ty_squared_distance(p->position, q->position));
-	double factor = run->s_u * (((double) p->size - 1) + ((double) q->size - 1)) + 1;
-
-	return factor * length;
-}
-
 /* with what influences make of it, barriers aside */
 static inline double
 edge_cost(const ty_run *run, uint32_t a, uint32_t b)
 {
-	double cost = plain_cost(run, a, b);
+	double cost = ty_plain_cost(run, a, b);
 
 	return __builtin_expect(run->influence == NULL, 1) ? cost : ty_influenced_cost(run, a, b, cost);
 }
@@ -186,42 +175,73 @@ ty_queue_partners(const ty_run *run, uint32_t a, uint32_t b)
 	return run->queue.key[a] == (int32_t) (b | 0x80000000);
 }
 
-/* Inlined twice: the loop without influences is the hottest of all, and a question more in it can be measured. */
-static inline __attribute__((always_inline)) ty_edge
-least_edge(const ty_run *run, uint32_t v, bool influenced)
+/*
+ * The hottest loop of all. Which edge is the least would be guessed wrong twice a star, so there is no branch: costs,
+ * which are not negative, compare as their bits do, and among edges of one vertex ty_before's order is that of the
+ * other ends.
+ */
+static ty_edge
+least_plain_edge(const ty_run *run, uint32_t v)
 {
-	ty_edge least = {INFINITY, v, TY_NONE};
-	uint32_t first = run->vertex[v].edge, h = first;
+	uint32_t first = run->vertex[v].edge, h = first, other = TY_NONE;
+	int64_t least = INT64_MAX;
+	ty_edge e = {INFINITY, v, TY_NONE};
 
-	if (run->mesh.live < 2)
-		return least;
 	do
 	{
 		uint32_t w = ty_target(&run->mesh, h);
 
 		if (w != TY_GHOST)
 		{
-			ty_edge e = {plain_cost(run, v, w), v, w};
+			double cost = ty_plain_cost(run, v, w);
+			int64_t bits;
+			bool before;
 
-			if (influenced)
-				e.cost = ty_influenced_cost(run, v, w, e.cost);
-			if (ty_before(e, least) && !(influenced && ty_is_barred(run, v, w)))
+			memcpy(&bits, &cost, sizeof bits);
+			before = (bits < least) | ((bits == least) & (w < other));
+			least = before ? bits : least;
+			other = before ? w : other;
+		}
+	} while ((h = ty_next_around(&run->mesh, h)) != first);
+	if (other != TY_NONE)
+	{
+		memcpy(&e.cost, &least, sizeof least);
+		e.other = other;
+	}
+	return e;
+}
+
+static __attribute__((noinline)) ty_edge
+least_influenced_edge(const ty_run *run, uint32_t v)
+{
+	ty_edge least = {INFINITY, v, TY_NONE};
+	uint32_t first = run->vertex[v].edge, h = first;
+
+	do
+	{
+		uint32_t w = ty_target(&run->mesh, h);
+
+		if (w != TY_GHOST)
+		{
+			ty_edge e = {ty_plain_cost(run, v, w), v, w};
+
+			if (!ty_before(e, least)) /* then influences, which only lengthen it, need not be asked */
+				continue;
+			e.cost = ty_influenced_cost(run, v, w, e.cost);
+
+			if (ty_before(e, least) && !ty_is_barred(run, v, w))
 				least = e;
 		}
 	} while ((h = ty_next_around(&run->mesh, h)) != first);
 	return least;
 }
 
-static __attribute__((noinline)) ty_edge
-least_influenced_edge(const ty_run *run, uint32_t v)
-{
-	return least_edge(run, v, true);
-}
-
 ty_edge
 ty_least_edge(const ty_run *run, uint32_t v)
 {
-	return run->influence == NULL ? least_edge(run, v, false) : least_influenced_edge(run, v);
+	if (run->mesh.live < 2)
+		return (ty_edge){INFINITY, v, TY_NONE};
+	return run->influence == NULL ? least_plain_edge(run, v) : least_influenced_edge(run, v);
 }
 
 /* An end whose key is as large as the edge's covers it only perhaps: keys are rounded. */
@@ -240,7 +260,7 @@ ty_cover_edge(void *context, uint32_t a, uint32_t b)
 
 /* ---- the first entries: every edge is covered by its end of smaller rank ---- */
 
-/* Keys are lower bounds: whether a barrier is in the way is asked when an edge's turn comes. */
+/* Keys are lower bounds: what influences make of an edge is asked when its turn comes. */
 static ty_status
 fill_buckets(ty_run *run)
 {
@@ -257,7 +277,7 @@ fill_buckets(ty_run *run)
 		if (a == TY_GHOST || b == TY_GHOST)
 			continue;
 		/* every edge comes twice; to skip one of them would be guessed wrong half the time */
-		key = key_of_cost(edge_cost(run, a, b));
+		key = key_of_cost(ty_plain_cost(run, a, b));
 		key = a < b ? key : TY_NO_KEY;
 		queue->key[a] = key < queue->key[a] ? key : queue->key[a];
 	}

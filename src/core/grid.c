@@ -8,16 +8,26 @@
 #define HILBERT_LEVELS (TY_GRID_BITS + 1) /* coordinates reach 2^30 itself */
 #define MAX_CELLS_EXPONENT 1000			  /* coordinates stay below 2^this cells, so that dividing cannot overflow */
 #define MIN_CELL_EXPONENT (-1000)		  /* nor underflow */
-#define AHEAD 16						  /* buildings fetched before they are needed */
+#define AHEAD 16						  /* positions fetched before they are needed */
 #define PROGRESS_INTERVAL 65536			  /* buildings between two words of progress */
 #define POLL_INTERVAL 65536				  /* copies of one place that are sorted without a look for an interrupt */
 
-/* nearest whole number, halves up; exact for every finite v */
-static double
+/* from here on every double is a whole number */
+#define ALL_WHOLE 4503599627370496.0 /* 2^52 */
+
+/*
+ * Nearest whole number, halves up; exact for every finite v. By conversion to an integer and back: floor() is a call
+ * of the C library, which took 20 ns a building.
+ */
+static inline double
 round_half_up(double v)
 {
-	double whole = floor(v);
+	double whole;
 
+	if (!(fabs(v) < ALL_WHOLE))
+		return v;
+	whole = (double) (int64_t) v; /* towards 0 */
+	whole -= v < whole;
 	return v - whole >= 0.5 ? whole + 1 : whole;
 }
 
@@ -365,34 +375,57 @@ order_equal_keys(const ty_environment *env, const ty_building *buildings, const 
 	return status;
 }
 
-ty_status
-ty_canonical_order(const ty_environment *env, const ty_building *buildings, size_t n, const ty_grid *grid,
-				   uint32_t *order, ty_position *position, uint64_t *keys)
+/* Snaps the buildings, as they come, and computes their keys. */
+static ty_status
+snap_all(const ty_environment *env, const ty_building *buildings, size_t n, const ty_grid *grid, ty_position *snapped,
+		 uint64_t *keys)
 {
-	ty_status status;
-
 	for (size_t i = 0; i < n; i++)
 	{
 		if (ty_interrupted_at(env, i))
 			return TY_INTERRUPTED;
 		if (i % PROGRESS_INTERVAL == 0)
 			ty_progress(env, TY_ORDERING, i, 2 * n);
-		order[i] = (uint32_t) i;
-		keys[i] = ty_hilbert_key(ty_grid_snap(grid, buildings[i].x, buildings[i].y));
+		snapped[i] = ty_grid_snap(grid, buildings[i].x, buildings[i].y);
+		keys[i] = ty_hilbert_key(snapped[i]);
 	}
-	status = ty_sort_keys(env, keys, order, n);
-	if (status == TY_OK)
-		status = order_equal_keys(env, buildings, keys, order, n);
-	for (size_t rank = 0; status == TY_OK && rank < n; rank++)
+	return TY_OK;
+}
+
+/* Puts the positions in order. */
+static ty_status
+arrange(const ty_environment *env, const ty_position *snapped, const uint32_t *order, size_t n, ty_position *position)
+{
+	for (size_t rank = 0; rank < n; rank++)
 	{
-		/* the rows came in any order: fetch ahead, or each would be waited for (a fifth of the whole ordering) */
-		if (rank + AHEAD < n)
-			__builtin_prefetch(&buildings[order[rank + AHEAD]]);
-		position[rank] = ty_grid_snap(grid, buildings[order[rank]].x, buildings[order[rank]].y);
 		if (ty_interrupted_at(env, rank))
-			status = TY_INTERRUPTED;
+			return TY_INTERRUPTED;
 		if (rank % PROGRESS_INTERVAL == 0)
 			ty_progress(env, TY_ORDERING, n + rank, 2 * n);
+		/* the rows came in any order: fetch ahead, or each would be waited for */
+		if (rank + AHEAD < n)
+			__builtin_prefetch(&snapped[order[rank + AHEAD]]);
+		position[rank] = snapped[order[rank]];
 	}
+	return TY_OK;
+}
+
+ty_status
+ty_canonical_order(const ty_environment *env, const ty_building *buildings, size_t n, const ty_grid *grid,
+				   uint32_t *order, ty_position *position, uint64_t *keys)
+{
+	/* put in order by themselves: fetching each building anew and snapping it took a fifth of the whole ordering */
+	ty_position *snapped = ty_allocate_array(env, n, sizeof *snapped);
+	ty_status status = snapped == NULL ? TY_NO_MEMORY : snap_all(env, buildings, n, grid, snapped, keys);
+
+	for (size_t i = 0; i < n; i++)
+		order[i] = (uint32_t) i;
+	if (status == TY_OK)
+		status = ty_sort_keys(env, keys, order, n);
+	if (status == TY_OK)
+		status = order_equal_keys(env, buildings, keys, order, n);
+	if (status == TY_OK)
+		status = arrange(env, snapped, order, n, position);
+	ty_release(env, snapped);
 	return status;
 }

@@ -2,6 +2,7 @@
 #include "group_internal.h"
 
 #include "collapse.h"
+#include "shed.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,6 +42,37 @@ sum_areas(const ty_building *buildings, const uint32_t *members, size_t n, ty_ar
 	return (double) sum * scale.from_units;
 }
 
+double
+ty_importance_of(const ty_group *g, uint32_t building)
+{
+	double importance = g->importance == NULL ? 1 : g->importance[building];
+
+	return ty_is_kept(g->parameters, g->buildings[building].area, importance) ? INFINITY : importance;
+}
+
+/*
+ * With importances: weights sum up to less than 2^62 (influence.h), so areas are taken as whole multiples of 2^-64 of
+ * the power of two, for their product to fit.
+ */
+#define WEIGHTED_AREA_BITS 64
+
+static double
+weighted_mean_area(const ty_group *g, const uint32_t *members, size_t n)
+{
+	double coarser = ldexp(1, WEIGHTED_AREA_BITS - AREA_BITS);
+	__int128 sum = 0;
+	int64_t weights = 0;
+
+	for (size_t i = 0; i < n; i++)
+	{
+		int64_t weight = ty_weight(ty_importance_of(g, members[i]), g->weight_exponent);
+
+		sum += weight * (__int128) (g->buildings[members[i]].area * g->scale.to_units * coarser);
+		weights += weight;
+	}
+	return (double) sum / (double) weights * (g->scale.from_units / coarser);
+}
+
 /* ---- one placeholder ---- */
 
 /* an area whose bits the median has sorted; they ascend as areas do, which are not negative */
@@ -76,6 +108,8 @@ area_statistic(const ty_environment *env, const ty_group *g, const uint32_t *mem
 		*area = g->buildings[members[0]].area;
 	else if (statistic == TY_MEDIAN)
 		return median_area(env, g, members, n, area);
+	else if (statistic == TY_MEAN && g->weight != NULL)
+		*area = weighted_mean_area(g, members, n);
 	else
 		*area = sum_areas(g->buildings, members, n, g->scale) / (statistic == TY_SUM ? 1 : (double) n);
 	return TY_OK;
@@ -93,15 +127,20 @@ fit_outline(const ty_outline *outline, ty_size size, ty_placeholder *p)
 	p->y += centre.y;
 }
 
-/* How large the placeholder is drawn, whose place and representative are known. */
+/*
+ * How large the placeholder is drawn, whose place and representative are known: a kept one as if it stood for itself
+ * alone.
+ */
 static void
 set_size(const ty_group *g, ty_placeholder *p)
 {
+	const ty_building *b = &g->buildings[p->representative];
 	const ty_outline *outline = g->outlines == NULL ? NULL : g->outlines[p->representative];
-	double ratio = g->parameters->shape == TY_SQUARE ? 1 : g->buildings[p->representative].ratio;
-	double area = ty_scaled_area(g->parameters, g->area_factor, p->statistic);
-	ty_size size = outline != NULL && area > 0 ? ty_outline_drawn_size(g->parameters, outline, p->statistic, area)
-											   : ty_drawn_size(g->parameters, p->statistic, area, ratio, p->count);
+	double ratio = g->parameters->shape == TY_SQUARE ? 1 : b->ratio;
+	double own = p->kept ? b->area : p->statistic;
+	double area = p->kept ? b->area : ty_scaled_area(g->parameters, g->area_factor, p->statistic);
+	ty_size size = outline != NULL && area > 0 ? ty_outline_drawn_size(g->parameters, outline, own, area)
+											   : ty_drawn_size(g->parameters, own, area, ratio, p->kept ? 1 : p->count);
 
 	p->outlined = outline != NULL && area > 0;
 	if (p->outlined)
@@ -112,14 +151,28 @@ set_size(const ty_group *g, ty_placeholder *p)
 	p->length = size.length;
 }
 
-/* the largest area, then the smallest rank; members ascend by rank */
+/* whether a stands for the two of them: the higher importance, then the larger area */
+static bool
+represents(const ty_group *g, uint32_t a, uint32_t b)
+{
+	if (g->weight != NULL)
+	{
+		double p = ty_importance_of(g, a), q = ty_importance_of(g, b);
+
+		if (p != q)
+			return p > q;
+	}
+	return g->buildings[a].area > g->buildings[b].area;
+}
+
+/* of equal ones that with the smallest rank; members ascend by rank */
 static uint32_t
 representative(const ty_group *g, const uint32_t *members, size_t n)
 {
 	uint32_t best = members[0];
 
 	for (size_t i = 1; i < n; i++)
-		if (g->buildings[members[i]].area > g->buildings[best].area)
+		if (represents(g, members[i], best))
 			best = members[i];
 	return best;
 }
@@ -131,7 +184,10 @@ static inline __attribute__((always_inline)) void
 fetch_ahead(const ty_group *g, const ty_result *result, const ty_placeholder *p, size_t n)
 {
 	for (size_t i = p->first + AHEAD; i < (size_t) p->first + p->count + AHEAD && i < n; i++)
+	{
 		__builtin_prefetch(&g->buildings[result->members[i]]);
+		__builtin_prefetch(&g->buildings[result->members[i]].uy); /* mostly in the next cache line */
+	}
 }
 
 ty_status
@@ -141,10 +197,11 @@ ty_describe(const ty_environment *env, const ty_group *g, const uint32_t *member
 	ty_status status = area_statistic(env, g, members + p->first, p->count, &p->statistic);
 
 	p->representative = representative(g, members + p->first, p->count);
+	p->kept = g->weight != NULL && ty_importance_of(g, p->representative) == INFINITY;
 	b = &g->buildings[p->representative];
-	/* a building that stands for itself stays exactly where it is */
-	p->x = p->count == 1 ? b->x : ty_grid_x(&g->grid, g->position[rank].x);
-	p->y = p->count == 1 ? b->y : ty_grid_y(&g->grid, g->position[rank].y);
+	/* a building that stands for itself stays exactly where it is, and so does a kept one */
+	p->x = p->count == 1 || p->kept ? b->x : ty_grid_x(&g->grid, g->position[rank].x);
+	p->y = p->count == 1 || p->kept ? b->y : ty_grid_y(&g->grid, g->position[rank].y);
 	p->ux = b->ux;
 	p->uy = b->uy;
 	set_size(g, p);
@@ -231,6 +288,25 @@ prepare_median(const ty_environment *env, ty_group *g, size_t n, const ty_result
 	return TY_OK;
 }
 
+/* Lays out what is left of rows. */
+static ty_status
+lay_out_rows(const ty_environment *env, const ty_group *g, const uint32_t *label, size_t n, ty_result *result)
+{
+	uint32_t *keeper = ty_allocate_array(env, result->count, sizeof *keeper);
+	ty_drawn_rows drawn = {&g->rows, g->buildings, g->order, label, keeper};
+	size_t next = 0;
+	ty_status status;
+
+	if (keeper == NULL)
+		return TY_NO_MEMORY;
+	for (size_t rank = 0; rank < n; rank++)
+		if (label[rank] == next)
+			keeper[next++] = (uint32_t) rank;
+	status = ty_rows_lay_out(env, &drawn, result->placeholders);
+	ty_release(env, keeper);
+	return status;
+}
+
 static ty_status
 cut_and_describe(const ty_environment *env, ty_group *g, const ty_sequence *sequence, size_t n, ty_result *result)
 {
@@ -246,10 +322,28 @@ cut_and_describe(const ty_environment *env, ty_group *g, const ty_sequence *sequ
 		status = prepare_median(env, g, n, result);
 		if (status == TY_OK)
 			status = describe_all(env, g, label, n, result);
+		if (status == TY_OK && g->rows.count > 0)
+			status = lay_out_rows(env, g, label, n, result);
 		if (status == TY_OK && g->parameters->min_gap > 0)
 			status = ty_make_group_legible(env, g, label, n, result);
 	}
 	ty_release(env, label);
+	return status;
+}
+
+/* The rows of the group, found in the mesh of its collapse. */
+static ty_status
+find_rows(const void *context, const ty_mesh *mesh, ty_rows *rows)
+{
+	const ty_group *g = context;
+	ty_trait *trait = ty_allocate_array(mesh->env, mesh->vertices, sizeof *trait);
+	ty_status status;
+
+	if (trait == NULL)
+		return TY_NO_MEMORY;
+	ty_traits(g->buildings, g->order, mesh, &g->grid, trait);
+	status = ty_rows_detect(mesh->env, mesh, trait, rows);
+	ty_release(mesh->env, trait);
 	return status;
 }
 
@@ -271,44 +365,147 @@ find_stop(const ty_group *g, size_t n)
 static ty_status
 order_group(const ty_environment *env, ty_group *g, size_t n)
 {
-	uint64_t *keys = ty_allocate_array(env, n, sizeof *keys);
 	ty_status status = TY_NO_MEMORY;
 
+	g->keys = ty_allocate_array(env, n, sizeof *g->keys);
 	g->order = ty_allocate_array(env, n, sizeof *g->order);
 	g->position = ty_allocate_array(env, n, sizeof *g->position);
-	if (keys != NULL && g->order != NULL && g->position != NULL)
-		status = ty_canonical_order(env, g->buildings, n, &g->grid, g->order, g->position, keys);
-	ty_release(env, keys);
+	if (g->keys != NULL && g->order != NULL && g->position != NULL)
+		status = ty_canonical_order(env, g->buildings, n, &g->grid, g->order, g->position, g->keys);
+	return status;
+}
+
+static uint64_t *
+take_keys(ty_group *g)
+{
+	uint64_t *keys = g->keys;
+
+	g->keys = NULL;
+	return keys;
+}
+
+/* whether a building is to be kept for its size */
+static bool
+some_are_large(const ty_group *g, size_t n)
+{
+	for (size_t i = 0; g->parameters->keep_area > 0 && i < n; i++)
+		if (ty_is_kept(g->parameters, g->buildings[i].area, 1))
+			return true;
+	return false;
+}
+
+/* Importances by rank, where there is one other than 1. */
+static ty_status
+weigh_group(const ty_environment *env, ty_group *g, size_t n)
+{
+	if (g->importance == NULL && !some_are_large(g, n))
+		return TY_OK;
+	g->weight = ty_allocate_array(env, n, sizeof *g->weight);
+	if (g->weight == NULL)
+		return TY_NO_MEMORY;
+	for (size_t rank = 0; rank < n; rank++)
+		g->weight[rank] = ty_importance_of(g, g->order[rank]);
+	g->weight_exponent = ty_weight_exponent(g->weight, n);
+	return TY_OK;
+}
+
+/* whether anything weighs edges besides their lengths */
+static bool
+weighs(const ty_influence *influence)
+{
+	return influence->importance != NULL || influence->rows != NULL || influence->crosses != NULL;
+}
+
+/* The merge sequence, under what weighs edges besides their lengths. */
+static ty_status
+collapse_group(const ty_environment *env, ty_group *g, const ty_input *input, ty_sequence *sequence)
+{
+	ty_barriers barriers = {.env = env};
+	ty_influence influence = {.importance = g->weight};
+	double alignment = g->parameters->alignment;
+	ty_status status = TY_OK;
+
+	if (input->barriers != NULL)
+		status = ty_barriers_fit(env, input->barriers, &g->grid, g->position, input->n, &barriers);
+	if (barriers.count > 0)
+	{
+		influence.crosses = ty_barriers_bar;
+		influence.barriers = &barriers;
+	}
+	if (alignment > 0)
+	{
+		influence.rows = &g->rows;
+		influence.alignment = alignment;
+		influence.find_rows = find_rows;
+		influence.context = g;
+	}
+	if (status == TY_OK)
+		status = ty_collapse_keyed(env, g->position, take_keys(g), input->n, g->parameters->s_u,
+								   weighs(&influence) ? &influence : NULL, find_stop(g, input->n), false, NULL, NULL,
+								   sequence);
+	ty_barriers_free(&barriers);
+	return status;
+}
+
+/* Typifies buildings that all count. */
+static ty_status
+typify_houses(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result)
+{
+	size_t n = input->n;
+	ty_group g = {.buildings = input->buildings,
+				  .outlines = input->outlines,
+				  .importance = input->importance,
+				  .barriers = input->barriers,
+				  .parameters = p,
+				  .area_factor = ty_area_factor(p)};
+	ty_sequence sequence = {0};
+	ty_status status = ty_grid_fit(g.buildings, n, &g.grid);
+
+	if (status != TY_OK)
+		return status;
+	g.scale = fit_area_scale(g.buildings, n);
+	status = order_group(env, &g, n);
+	if (status == TY_OK)
+		status = weigh_group(env, &g, n);
+	if (status == TY_OK)
+		status = collapse_group(env, &g, input, &sequence);
+	if (status == TY_OK)
+		status = cut_and_describe(env, &g, &sequence, n, result);
+	ty_sequence_free(env, &sequence);
+	ty_release(env, g.order);
+	ty_release(env, g.position);
+	ty_release(env, g.keys);
+	ty_release(env, g.weight);
+	ty_release(env, g.area_bits);
+	ty_release(env, g.sorted);
+	ty_rows_free(env, &g.rows);
+	return status;
+}
+
+/* Typifies the houses as if there were no sheds, then adds those. */
+static ty_status
+typify_with_sheds(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result)
+{
+	ty_sheds sheds;
+	ty_status status = ty_sheds_part(env, input, p, &sheds);
+
+	if (status == TY_OK && sheds.houses.n > 0)
+		status = typify_houses(env, &sheds.houses, p, result);
+	if (status == TY_OK && sheds.count > 0)
+		status = ty_sheds_join(env, &sheds, result);
+	ty_sheds_free(env, &sheds);
 	return status;
 }
 
 ty_status
 ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result)
 {
-	const ty_building *buildings = input->buildings;
-	size_t n = input->n;
-	ty_group g = {
-		.buildings = buildings, .outlines = input->outlines, .parameters = p, .area_factor = ty_area_factor(p)};
-	ty_sequence sequence = {0};
 	ty_status status;
 
 	*result = (ty_result){0};
-	if (n > TY_MAX_VERTICES)
+	if (input->n > TY_MAX_VERTICES)
 		return TY_TOO_MANY;
-	status = ty_grid_fit(buildings, n, &g.grid);
-	if (status != TY_OK)
-		return status;
-	g.scale = fit_area_scale(buildings, n);
-	status = order_group(env, &g, n);
-	if (status == TY_OK)
-		status = ty_collapse(env, g.position, n, p->s_u, NULL, find_stop(&g, n), false, NULL, NULL, &sequence);
-	if (status == TY_OK)
-		status = cut_and_describe(env, &g, &sequence, n, result);
-	ty_sequence_free(env, &sequence);
-	ty_release(env, g.order);
-	ty_release(env, g.position);
-	ty_release(env, g.area_bits);
-	ty_release(env, g.sorted);
+	status = p->min_area > 0 ? typify_with_sheds(env, input, p, result) : typify_houses(env, input, p, result);
 	if (status != TY_OK)
 		ty_result_free(env, result);
 	return status;

@@ -4,6 +4,7 @@
 #ifndef TY_GROUP_H
 #define TY_GROUP_H
 
+#include "barrier.h"
 #include "environment.h"
 #include "legibility.h"
 #include "measure.h"
@@ -17,13 +18,19 @@ typedef struct ty_input
 	size_t n;					  /* >= 1 */
 	/* [n] those with which placeholders are drawn, NULL for a building that has none; or NULL as a whole */
 	ty_outline *const *outlines;
+	const ty_barrier_lines *barriers; /* NULL: none */
+	/*
+	 * [n] >= 1, INFINITY: kept (spec 2.5); NULL: all 1. Buildings that are the same in all else, id included, should
+	 * have the same, or which of them has which is not a matter of the set alone.
+	 */
+	const double *importance;
 } ty_input;
 
 typedef struct ty_placeholder
 {
 	/*
-	 * centre of the rectangle, ground units: the vertex; of a single building its very centroid, off the grid; min_gap
-	 * may have moved it
+	 * centre of the rectangle, ground units: the vertex; of a single or kept building its very centroid, off the grid;
+	 * min_gap may have moved it
 	 */
 	double x, y;
 	double area; /* what is drawn, ground units; 0: no size, not drawn */
@@ -37,18 +44,22 @@ typedef struct ty_placeholder
 	uint32_t representative; /* index into the caller's buildings */
 	uint32_t first, count;	 /* members: ty_result.members[first .. first + count) */
 	bool outlined;			 /* drawn with the representative's outline, not as a rectangle */
+	bool kept;				 /* the representative is kept: in place, with its own area */
 } ty_placeholder;
 
 typedef struct ty_result
 {
 	size_t count;
 	ty_placeholder *placeholders; /* [count] in canonical order: by smallest rank of the members */
-	uint32_t *members;			  /* [n] indices into the caller's buildings, by placeholder, then by rank */
-	size_t undrawn;				  /* placeholders without size */
+	uint32_t *members;	   /* [n] indices into the caller's buildings, by placeholder, then by rank, sheds last */
+	size_t undrawn;		   /* placeholders without size; one of sheds alone has none and does not count */
+	size_t hidden;		   /* for which there was no room */
+	size_t collisions;	   /* of two kept buildings that are nearer to each other than min_gap ... */
+	uint32_t colliding[2]; /* ... the first two of them: indices into the caller's buildings */
 } ty_result;
 
 /*
- * The whole way of one group: canonical order, mesh, collapse, cut, placeholders.
+ * The whole way of one group: canonical order, mesh, collapse, cut, placeholders; sheds (shed.h) join those.
  * Lengths of p are ground units (ty_bring_to_ground).
  * The result's arrays come from env; ty_result_free gives them back. TY_NOT_FINITE when a sum of areas overflows.
  */

@@ -2,6 +2,7 @@
 #ifndef TY_GROUP_INTERNAL_H
 #define TY_GROUP_INTERNAL_H
 
+#include "alignment.h"
 #include "grid.h"
 #include "group.h"
 
@@ -16,13 +17,19 @@ typedef struct ty_group
 	const ty_building *buildings;
 	ty_outline *const *outlines;
 	const ty_parameters *parameters;
+	const double *importance;		  /* by building, or NULL */
+	const ty_barrier_lines *barriers; /* or NULL */
 	ty_grid grid;
 	ty_area_scale scale;
 	double area_factor;
 	uint32_t *order;	   /* [n] building by rank */
 	ty_position *position; /* [n] by rank */
+	uint64_t *keys;		   /* [n] by rank, until the collapse takes them */
+	double *weight;		   /* [n] importance by rank, INFINITY: kept; NULL where nothing is weighed or kept */
+	int weight_exponent;   /* of weight (influence.h) */
 	uint64_t *area_bits;   /* [largest number of members] scratch of the median ... */
 	uint32_t *sorted;	   /* ... and what its sort moves along */
+	ty_rows rows;		   /* with alignment; else none */
 } ty_group;
 
 /*
@@ -31,6 +38,9 @@ typedef struct ty_group
  */
 ty_status ty_describe(const ty_environment *env, const ty_group *g, const uint32_t *members, uint32_t rank,
 					  ty_placeholder *p);
+
+/* The importance of a building; INFINITY: kept, for itself or for its size. */
+double ty_importance_of(const ty_group *g, uint32_t building);
 
 /* Sorts the ranks by label, stably; first and count of the placeholders, and members as buildings. */
 void ty_list_members(const uint32_t *label, const uint32_t *order, size_t n, ty_result *result);

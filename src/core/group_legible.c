@@ -7,6 +7,7 @@
  */
 #include "group_internal.h"
 
+#include "influence.h"
 #include "legibility.h"
 
 #include <math.h>
@@ -23,6 +24,7 @@ typedef struct joining
 	ty_site *sites;	   /* [result->count] */
 	uint32_t *first;   /* [result->count] smallest rank */
 	uint32_t *next;	   /* [n] rank, by rank */
+	bool *handed;	   /* [result->count] has members from across a line */
 	uint32_t *members; /* [n] scratch: buildings */
 } joining;
 
@@ -81,7 +83,10 @@ ty_placeholder_site(const ty_parameters *p, const ty_input *input, const ty_plac
 {
 	*site = (ty_site){.ux = q->ux, .uy = q->uy, .weight = q->count, .moved = q->moved, .size = q->size};
 	site->state = q->area > 0 ? TY_DRAWN : TY_HIDDEN;
-	if (q->outlined)
+	site->fixed = q->kept;
+	if (q->kept)
+		keep_size(q, site);
+	else if (q->outlined)
 		set_outline_sides(p, input->outlines[q->representative], q, site);
 	else
 		set_rectangle_sides(p, &input->buildings[q->representative], q, site);
@@ -109,29 +114,63 @@ merge_lists(uint32_t *next, uint32_t a, uint32_t b)
 	return head;
 }
 
-/* The exact mean of the members' grid positions, halves up. */
+/*
+ * The exact mean of the members' grid positions, each as often as it weighs, halves up. Weights sum up to less than
+ * 2^62 (influence.h).
+ */
 static ty_position
 mean_position(const joining *j, size_t count)
 {
 	const ty_group *g = j->group;
-	int64_t x = 0, y = 0, n = (int64_t) count;
+	__int128 x = 0, y = 0, n = 0;
 
 	for (size_t i = 0; i < count; i++)
 	{
 		const ty_building *b = &g->buildings[j->members[i]];
 		ty_position at = ty_grid_snap(&g->grid, b->x, b->y);
+		int64_t weight = g->weight == NULL ? 1 : ty_weight(ty_importance_of(g, j->members[i]), g->weight_exponent);
 
-		x += at.x;
-		y += at.y;
+		x += (__int128) weight * at.x;
+		y += (__int128) weight * at.y;
+		n += weight;
 	}
 	return (ty_position){(int32_t) ((2 * x + n) / (2 * n)), (int32_t) ((2 * y + n) / (2 * n))};
 }
 
+/*
+ * Where members were handed across a line the vertex is no longer the mean of their places, but of the two sites', each
+ * as often as it has members; or it stays where that of in_place is.
+ */
+static ty_point
+joint_home(const joining *j, uint32_t kept, uint32_t gone, uint32_t in_place)
+{
+	const ty_site *a = &j->sites[kept], *b = &j->sites[gone];
+	double weight = (double) b->weight / ((double) a->weight + b->weight);
+
+	if (in_place != TY_NO_SITE)
+		return j->sites[in_place].home;
+	return (ty_point){a->home.x + weight * (b->home.x - a->home.x), a->home.y + weight * (b->home.y - a->home.y)};
+}
+
+/* The rectangle of an outline is not about the vertex, but goes along with it. */
+static void
+move_vertex(const joining *j, uint32_t rank, ty_point home, ty_placeholder *p)
+{
+	const ty_group *g = j->group;
+	double x = p->count == 1 ? g->buildings[p->representative].x : ty_grid_x(&g->grid, g->position[rank].x);
+	double y = p->count == 1 ? g->buildings[p->representative].y : ty_grid_y(&g->grid, g->position[rank].y);
+
+	p->x += home.x - x;
+	p->y += home.y - y;
+}
+
 static ty_status
-join(void *context, uint32_t kept, uint32_t gone, ty_site *site)
+join(void *context, uint32_t kept, uint32_t gone, uint32_t in_place, ty_site *site)
 {
 	joining *j = context;
 	ty_placeholder *p = &j->result->placeholders[kept];
+	ty_point home = joint_home(j, kept, gone, in_place);
+	bool handed = in_place != TY_NO_SITE || j->handed[kept] || j->handed[gone];
 	uint32_t rank = merge_lists(j->next, j->first[kept], j->first[gone]);
 	ty_status status;
 
@@ -141,6 +180,9 @@ join(void *context, uint32_t kept, uint32_t gone, ty_site *site)
 		j->members[p->count++] = j->group->order[r];
 	j->group->position[rank] = mean_position(j, p->count);
 	status = ty_describe(j->env, j->group, j->members, rank, p);
+	j->handed[kept] = handed;
+	if (handed && !p->kept)
+		move_vertex(j, rank, home, p);
 	ty_placeholder_site(j->group->parameters, j->input, p, site);
 	return status;
 }
@@ -169,6 +211,18 @@ take_over(ty_placeholder *p, const ty_site *site)
 	p->ratio = sides.width / sides.length;
 }
 
+static void
+collide(void *context, uint32_t a, uint32_t b)
+{
+	joining *j = context;
+	ty_result *result = j->result;
+
+	if (result->collisions++ > 0)
+		return;
+	result->colliding[0] = result->placeholders[a].representative;
+	result->colliding[1] = result->placeholders[b].representative;
+}
+
 /* Numbers those that are left, and labels and lists the members anew. */
 static ty_status
 renumber(const joining *j, uint32_t *label, size_t n)
@@ -187,6 +241,7 @@ renumber(const joining *j, uint32_t *label, size_t n)
 			number[k] = number[j->sites[k].into];
 			continue;
 		}
+		result->hidden += result->placeholders[k].area > 0 && j->sites[k].state == TY_HIDDEN;
 		take_over(&result->placeholders[k], &j->sites[k]);
 		result->undrawn += !(result->placeholders[k].area > 0);
 		result->placeholders[left] = result->placeholders[k];
@@ -206,9 +261,11 @@ prepare(joining *j, const uint32_t *label, size_t n)
 	j->sites = ty_allocate_array(j->env, j->result->count, sizeof *j->sites);
 	j->first = ty_allocate_array(j->env, j->result->count, sizeof *j->first);
 	j->next = ty_allocate_array(j->env, n, sizeof *j->next);
+	j->handed = ty_allocate_array(j->env, j->result->count, sizeof *j->handed);
 	j->members = ty_allocate_array(j->env, n, sizeof *j->members);
-	if (j->sites == NULL || j->first == NULL || j->next == NULL || j->members == NULL)
+	if (j->sites == NULL || j->first == NULL || j->next == NULL || j->members == NULL || j->handed == NULL)
 		return TY_NO_MEMORY;
+	memset(j->handed, 0, j->result->count * sizeof *j->handed);
 	memset(j->first, 0xff, j->result->count * sizeof *j->first);
 	for (size_t rank = n; rank-- > 0;)
 	{
@@ -225,7 +282,12 @@ ty_make_group_legible(const ty_environment *env, ty_group *g, uint32_t *label, s
 {
 	ty_input input = {.buildings = g->buildings, .n = n, .outlines = g->outlines};
 	joining j = {.env = env, .group = g, .input = &input, .result = result};
-	ty_legibility rules = {.gap = g->parameters->min_gap, .join = join, .context = &j};
+	ty_legibility rules = {.gap = g->parameters->min_gap,
+						   .lines = g->barriers,
+						   .line_gap = 0.5 * g->parameters->barrier_width + g->parameters->min_gap,
+						   .join = join,
+						   .collide = collide,
+						   .context = &j};
 	ty_status status = prepare(&j, label, n);
 
 	if (status == TY_OK)
@@ -236,5 +298,6 @@ ty_make_group_legible(const ty_environment *env, ty_group *g, uint32_t *label, s
 	ty_release(env, j.first);
 	ty_release(env, j.next);
 	ty_release(env, j.members);
+	ty_release(env, j.handed);
 	return status;
 }

@@ -9,9 +9,7 @@
 #ifndef TY_INFLUENCE_H
 #define TY_INFLUENCE_H
 
-#include "grid.h"
-
-#define TY_NO_ROW UINT32_MAX
+#include "alignment.h"
 
 /* lines that no collapse crosses; known to whoever made them */
 typedef struct ty_barriers ty_barriers;
@@ -19,23 +17,31 @@ typedef struct ty_barriers ty_barriers;
 typedef struct ty_influence
 {
 	/*
-	 * [n] by rank, >= 1; INFINITY: kept. NULL: all 1. A vertex has the largest of its members' and weighs as much as all
-	 * of them together. The factor is the larger of the two ends'; at a kept end it is the other's, and the kept one does
-	 * not move. Two kept vertices are not collapsed even where they share a place.
+	 * [n] by rank, >= 1; INFINITY: kept. NULL: all 1. A vertex has the largest of its members' and weighs as much as
+	 * all of them together. The factor is the larger of the two ends'; at a kept end it is the other's, and the kept
+	 * one does not move. Two kept vertices are not collapsed even where they share a place.
 	 */
 	const double *importance;
-	/* [n] by rank, the row of the building or TY_NO_ROW. NULL: no rows. An edge between two rows, or into one: 1 + alignment. */
-	const uint32_t *row;
-	double alignment; /* finite, >= 0 */
-	/* Whether the segment from a to b, which differ, crosses a barrier; the same for b to a. NULL: no barriers. */
-	bool (*crosses)(const ty_barriers *barriers, ty_position a, ty_position b);
+	/*
+	 * Rows of buildings, whose vertices are merged along them; NULL: none. find_rows fills them once the mesh stands,
+	 * before anything else is merged than vertices at one place; NULL: they are given. Merges change their spans.
+	 */
+	ty_rows *rows;
+	double alignment; /* finite, >= 0: an edge that leaves a row counts 1 + alignment times as long */
+	ty_status (*find_rows)(const void *context, const ty_mesh *mesh, ty_rows *rows);
+	const void *context; /* of find_rows */
+	/*
+	 * Whether the edge from a to b, which differ, crosses a barrier, or one of the two ways to where they would be merged:
+	 * that is on the edge, but for rounding. The same with a and b exchanged. NULL: no barriers.
+	 */
+	bool (*crosses)(const ty_barriers *barriers, ty_position a, ty_position b, ty_position merged);
 	const ty_barriers *barriers;
 } ty_influence;
 
 /*
- * What importances weigh: whole multiples of 2^-exponent, so fine that the sum over the group stays just below 2^62 (for
- * a million buildings 41 bits for the largest). Sums of them are exact. An importance below the unit counts as one
- * unit; a kept building's weight is never used.
+ * What importances weigh: whole multiples of 2^-exponent, so fine that the sum over the group stays just below 2^62
+ * (for a million buildings 41 bits for the largest). Sums of them are exact. An importance below the unit counts as
+ * one unit; a kept building's weight is never used.
  */
 int ty_weight_exponent(const double *importance, size_t n);
 int64_t ty_weight(double importance, int exponent);

@@ -7,6 +7,7 @@
  * a neighbourhood, are resolved by joining the two, and everything around is looked at again. Every time there is
  * one site less to be in a conflict, so it ends. Where sites are not joined (a layer whose groups have been made
  * legible before) one of the two is hidden; two of one group go back to where they came from, where they were apart.
+ * Where there are lines a site is joined to one on its side; if there is none, its members go to the nearest across.
  * At the end, what was moved or shrunk but need not have been is put back as far as there is room.
  */
 #include "legibility_internal.h"
@@ -62,12 +63,12 @@ ty_place_box(ty_ladder *l, uint32_t i)
 	ty_sides sides = ty_site_sides(s);
 	double factor = s->size >= 2 || !(s->full.length > 0) ? 1 : sides.length / s->full.length;
 
-	l->box[i] = (ty_box){s->home.x - l->origin.x + s->moved.x + factor * s->shift.x,
-						 s->home.y - l->origin.y + s->moved.y + factor * s->shift.y,
-						 s->ux,
-						 s->uy,
-						 0.5 * sides.length,
-						 0.5 * sides.width};
+	l->box[i] = (ty_oblong){s->home.x - l->origin.x + s->moved.x + factor * s->shift.x,
+							s->home.y - l->origin.y + s->moved.y + factor * s->shift.y,
+							s->ux,
+							s->uy,
+							0.5 * sides.length,
+							0.5 * sides.width};
 	l->radius[i] = half_diagonal(sides);
 }
 
@@ -87,6 +88,7 @@ ty_enter_site(ty_ladder *l, uint32_t i)
 
 	ty_place_box(l, i);
 	ty_vicinity_insert(&l->near, i, (ty_point){s->home.x - l->origin.x, s->home.y - l->origin.y}, reach_of(l, s));
+	l->by_line[i] = ty_line_in_reach(l, i);
 }
 
 void
@@ -136,7 +138,7 @@ forget_near(ty_ladder *l, uint32_t i)
 }
 
 ty_status
-ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t *kept)
+ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t in_place, uint32_t *kept)
 {
 	uint32_t gone = a < b ? b : a;
 	ty_status status;
@@ -144,7 +146,7 @@ ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t *kept)
 	*kept = a < b ? a : b;
 	ty_vicinity_remove(&l->near, a);
 	ty_vicinity_remove(&l->near, b);
-	status = l->rules->join(l->rules->context, *kept, gone, &l->sites[*kept]);
+	status = l->rules->join(l->rules->context, *kept, gone, in_place, &l->sites[*kept]);
 	l->sites[gone].state = TY_JOINED;
 	l->sites[gone].into = *kept;
 	l->start[*kept] = (ty_point){0, 0};
@@ -214,7 +216,28 @@ note_conflict(ty_ladder *l, uint32_t a, uint32_t b, double lack)
 	return TY_OK;
 }
 
-/* The conflicts of the active sites, each once: of two active sites the smaller lists it. */
+/* The conflicts of one active site; of two active sites the smaller lists theirs. */
+static ty_status
+collect_of_site(ty_ladder *l, uint32_t i)
+{
+	ty_point away;
+	double lack = ty_line_lack(l, i, &away);
+	ty_status status = ty_find_near(l, i);
+
+	if (status == TY_OK && (ty_is_line_conflict(l, lack) || ty_is_across(l, i)))
+		status = note_conflict(l, i, i, lack);
+	for (size_t m = 0; status == TY_OK && m < l->list_count; m++)
+	{
+		uint32_t j = l->list[m];
+
+		lack = l->listed[j] && j < i ? 0 : ty_sites_lack(l, i < j ? i : j, i < j ? j : i, &away);
+		if (ty_is_conflict(l, lack))
+			status = note_conflict(l, i < j ? i : j, i < j ? j : i, lack);
+	}
+	return status;
+}
+
+/* The conflicts of the active sites, each once. */
 static ty_status
 collect_conflicts(ty_ladder *l)
 {
@@ -225,22 +248,10 @@ collect_conflicts(ty_ladder *l)
 		l->listed[l->active[k]] = true;
 	for (size_t k = 0; status == TY_OK && k < l->active_count; k++)
 	{
-		uint32_t i = l->active[k];
-
 		if (ty_interrupted_at(l->env, k))
-			return TY_INTERRUPTED;
-		if (!ty_is_drawn(l, i))
-			continue;
-		status = ty_find_near(l, i);
-		for (size_t m = 0; status == TY_OK && m < l->list_count; m++)
-		{
-			uint32_t j = l->list[m];
-			ty_point away;
-			double lack = l->listed[j] && j < i ? 0 : ty_sites_lack(l, i < j ? i : j, i < j ? j : i, &away);
-
-			if (ty_is_conflict(l, lack))
-				status = note_conflict(l, i < j ? i : j, i < j ? j : i, lack);
-		}
+			status = TY_INTERRUPTED;
+		else if (ty_is_drawn(l, l->active[k]))
+			status = collect_of_site(l, l->active[k]);
 	}
 	for (size_t k = 0; k < l->active_count; k++)
 		l->listed[l->active[k]] = false;
@@ -291,26 +302,49 @@ lesser(const ty_ladder *l, uint32_t a, uint32_t b)
 	return s->weight < t->weight ? a : b;
 }
 
+/* Joins the site to its nearest neighbour on its side of the lines or, if it has none there, across. */
+static ty_status
+join_nearest(ty_ladder *l, uint32_t i)
+{
+	uint32_t nearest, kept;
+	bool across;
+	ty_status status = ty_nearest_site(l, i, &nearest, &across);
+
+	if (status == TY_OK && nearest != TY_NO_SITE)
+	{
+		status = ty_join_sites(l, i, nearest, across ? nearest : TY_NO_SITE, &kept);
+		ty_activate(l, kept);
+	}
+	else if (status == TY_OK)
+		ty_hide_site(l, i);
+	return status;
+}
+
+/* A conflict of two sites, or of one with a line (a and b are the same). */
 static ty_status
 resolve(ty_ladder *l, uint32_t a, uint32_t b)
 {
-	uint32_t kept = a;
+	uint32_t goes = a == b ? a : lesser(l, a, b);
 
-	if (l->rules->join != NULL && l->sites[a].group == l->sites[b].group)
+	if (l->rules->join == NULL)
 	{
-		ty_status status = ty_join_sites(l, a, b, &kept);
-
-		ty_activate(l, kept);
-		return status;
-	}
-	if (l->rules->join == NULL && l->sites[a].group == l->sites[b].group && !(l->frozen[a] && l->frozen[b]))
-	{
-		freeze(l, a);
-		freeze(l, b);
+		if (l->sites[a].group == l->sites[b].group && !(l->frozen[a] && l->frozen[b]))
+		{
+			freeze(l, a);
+			freeze(l, b);
+		}
+		else
+			ty_hide_site(l, goes);
 		return TY_OK;
 	}
-	ty_hide_site(l, lesser(l, a, b));
-	return TY_OK;
+	if (a != b && ty_may_join(l, a, b))
+	{
+		ty_status status = ty_join_sites(l, a, b, TY_NO_SITE, &goes);
+
+		ty_activate(l, goes);
+		return status;
+	}
+	return join_nearest(l, goes);
 }
 
 /* What is done to the sites of conflicts in one go. */
@@ -332,7 +366,8 @@ resolve_in_order(ty_ladder *l, const uint32_t *order, uint8_t *touched)
 
 		if (touched[c->a] == UNTOUCHED && touched[c->b] == UNTOUCHED)
 		{
-			status = resolve(l, c->a, c->b);
+			if (ty_is_drawn(l, c->a) && ty_is_drawn(l, c->b))
+				status = resolve(l, c->a, c->b);
 			touched[c->a] = touched[c->b] = RESOLVED;
 		}
 		else if (touched[c->a] == RESOLVED && touched[c->b] == UNTOUCHED)
@@ -416,6 +451,30 @@ climb(ty_ladder *l, uint8_t *touched)
 	return status;
 }
 
+/* Tells of fixed sites that are too near to each other. */
+static ty_status
+tell_collisions(ty_ladder *l)
+{
+	ty_status status = TY_OK;
+
+	for (uint32_t i = 0; status == TY_OK && l->rules->collide != NULL && i < l->n; i++)
+	{
+		if (!ty_is_drawn(l, i) || !l->sites[i].fixed)
+			continue;
+		status = ty_find_near(l, i);
+		for (size_t m = 0; status == TY_OK && m < l->list_count; m++)
+		{
+			uint32_t j = l->list[m];
+			ty_point away;
+
+			if (j > i && ty_is_drawn(l, j) && l->sites[j].fixed &&
+				ty_is_conflict(l, ty_lack(&l->box[i], &l->box[j], l->target, &away)))
+				l->rules->collide(l->rules->context, i, j);
+		}
+	}
+	return status;
+}
+
 /* Everything is looked at once more in the end: what is promised does not hang on what was active. */
 static ty_status
 run(ty_ladder *l)
@@ -455,14 +514,15 @@ allocate_ladder(ty_ladder *l)
 	l->frozen = ty_allocate_array(l->env, l->n, sizeof *l->frozen);
 	l->active = ty_allocate_array(l->env, l->n, sizeof *l->active);
 	l->cached = ty_allocate_array(l->env, l->n, sizeof *l->cached);
+	l->by_line = ty_allocate_array(l->env, l->n, sizeof *l->by_line);
 	l->pool = ty_allocate_array(l->env, l->pool_capacity, sizeof *l->pool);
 	l->next = ty_allocate_array(l->env, l->n, sizeof *l->next);
 	l->listed = ty_allocate_array(l->env, l->n, sizeof *l->listed);
 	l->degree = ty_allocate_array(l->env, l->n, sizeof *l->degree);
 	l->conflicts = ty_allocate_array(l->env, l->conflict_capacity, sizeof *l->conflicts);
 	if (l->box == NULL || l->radius == NULL || l->start == NULL || l->start_size == NULL || l->frozen == NULL ||
-		l->active == NULL || l->next == NULL || l->cached == NULL || l->pool == NULL || l->listed == NULL ||
-		l->degree == NULL || l->conflicts == NULL)
+		l->active == NULL || l->next == NULL || l->cached == NULL || l->by_line == NULL || l->pool == NULL ||
+		l->listed == NULL || l->degree == NULL || l->conflicts == NULL)
 		return TY_NO_MEMORY;
 	memset(l->cached, 0xff, l->n * sizeof *l->cached);
 	memset(l->frozen, 0, l->n * sizeof *l->frozen);
@@ -482,6 +542,7 @@ free_ladder(ty_ladder *l)
 	ty_release(l->env, l->frozen);
 	ty_release(l->env, l->active);
 	ty_release(l->env, l->cached);
+	ty_release(l->env, l->by_line);
 	ty_release(l->env, l->pool);
 	ty_release(l->env, l->next);
 	ty_release(l->env, l->listed);
@@ -514,6 +575,11 @@ measure_sites(ty_ladder *l, ty_point *high, double *smallest)
 	rounding = ROUNDING_STEPS * DBL_EPSILON * (place + largest);
 	l->gap = l->rules->gap * (1 + 1e-9) + rounding;
 	l->target = l->gap * (1 + SLACK);
+	if (l->rules->lines != NULL)
+	{
+		l->line_gap = l->rules->line_gap * (1 + 1e-9) + rounding;
+		l->line_target = l->line_gap * (1 + SLACK);
+	}
 	*smallest += 1.5 * l->target;
 	return isfinite(4 * (place + largest + l->target)) ? TY_OK : TY_NOT_FINITE;
 }
@@ -556,13 +622,15 @@ ty_make_legible(const ty_environment *env, const ty_legibility *rules, ty_site *
 
 	if (n > UINT32_MAX - 1)
 		return TY_TOO_MANY;
-	if (count_drawn(sites, n) < 2)
+	if (count_drawn(sites, n) < (rules->lines == NULL ? 2 : 1))
 		return TY_OK;
 	status = allocate_ladder(&l);
 	if (status == TY_OK)
 		status = enter_all(&l);
 	if (status == TY_OK)
 		status = run(&l);
+	if (status == TY_OK)
+		status = tell_collisions(&l);
 	free_ladder(&l);
 	return status;
 }

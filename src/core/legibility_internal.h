@@ -9,7 +9,7 @@
 /* Two sites that are too near to each other. */
 typedef struct ty_conflict
 {
-	uint32_t a, b; /* a < b */
+	uint32_t a, b; /* a < b; or the same: a site that is too near to a line */
 	double lack;
 } ty_conflict;
 
@@ -22,7 +22,10 @@ typedef struct ty_ladder
 	ty_point origin;	/* places are counted from here, for precision */
 	double gap;			/* that must be kept, with room for rounding */
 	double target;		/* that is made, a bit more, so that it is reached in finite time */
-	ty_box *box;		/* [n] where each is now ... */
+	double line_target; /* the same for lines; 0: there are none */
+	double line_gap;
+	bool *by_line;		/* [n] whether a line is in reach of the site */
+	ty_oblong *box;		/* [n] where each is now ... */
 	double *radius;		/* [n] ... and half its diagonal */
 	ty_point *start;	/* [n] moved, as given */
 	double *start_size; /* [n] */
@@ -65,8 +68,22 @@ void ty_place_box(ty_ladder *l, uint32_t i);
 /* The site enters the vicinity, or leaves it for good. */
 void ty_enter_site(ty_ladder *l, uint32_t i);
 void ty_hide_site(ty_ladder *l, uint32_t i);
-/* Joins two sites of one group; which of the numbers goes on. */
-ty_status ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t *kept);
+/* Joins two sites; which of the numbers goes on. in_place: as for the rules' join. */
+ty_status ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t in_place, uint32_t *kept);
+/* Whether two sites belong to one group and no line lies between them. */
+bool ty_may_join(const ty_ladder *l, uint32_t a, uint32_t b);
+/*
+ * legibility_line.c: by how much the site is nearer to a line than it should be, along *away; all of it where it lies
+ * across one.
+ */
+double ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away);
+bool ty_is_line_conflict(const ty_ladder *l, double lack);
+/* Whether a line is in reach. */
+bool ty_line_in_reach(const ty_ladder *l, uint32_t i);
+/* Whether the site has come to lie on the other side of a line. */
+bool ty_is_across(const ty_ladder *l, uint32_t i);
+/* The nearest that is drawn: of those that it may be joined to or, if there is none near, of all. */
+ty_status ty_nearest_site(ty_ladder *l, uint32_t i, uint32_t *nearest, bool *across);
 /* Lists in l->list who may touch the site, wherever both may go. */
 ty_status ty_find_near(ty_ladder *l, uint32_t i);
 /* What was listed by ty_activate becomes active. */

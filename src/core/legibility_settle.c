@@ -125,11 +125,43 @@ settle_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point n, bool 
 	ty_activate(l, b);
 }
 
+/* Takes the site away from a line that it is too near to, and back from the other side of one. */
+static void
+settle_by_line(ty_ladder *l, uint32_t i, bool below)
+{
+	ty_point n;
+	double lack;
+
+	if (!l->by_line[i] || l->frozen[i])
+		return;
+	if (ty_is_across(l, i))
+	{
+		l->sites[i].moved = (ty_point){0, 0};
+		ty_place_box(l, i);
+		ty_activate(l, i);
+	}
+	lack = ty_line_lack(l, i, &n);
+	if (!ty_is_line_conflict(l, lack))
+		return;
+	l->lacking += lack;
+	for (int stage = 1; stage >= (below ? 0 : 1); stage--)
+		for (int step = 0; step < SHRINK_STEPS && lack > 0 && growth(l, i, stage) > 0; step++)
+		{
+			if (!shrink(l, i, lack, n, stage))
+				break;
+			lack = ty_line_lack(l, i, &n);
+		}
+	if (lack > 0)
+		displace(l, i, lack, n);
+	ty_activate(l, i);
+}
+
 static ty_status
 settle_site(ty_ladder *l, uint32_t i, bool below)
 {
 	ty_status status = ty_find_near(l, i);
 
+	settle_by_line(l, i, below);
 	for (size_t m = 0; status == TY_OK && m < l->list_count; m++)
 	{
 		uint32_t j = l->list[m], a = i < j ? i : j, b = i < j ? j : i;
@@ -175,6 +207,10 @@ ty_settle(ty_ladder *l, int rounds, bool below)
 static bool
 has_room(const ty_ladder *l, uint32_t i)
 {
+	ty_point way;
+
+	if (ty_is_line_conflict(l, ty_line_lack(l, i, &way)) || ty_is_across(l, i))
+		return false;
 	for (size_t m = 0; m < l->list_count; m++)
 	{
 		uint32_t j = l->list[m];

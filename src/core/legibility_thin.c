@@ -47,12 +47,6 @@ square_key(const ty_ladder *l, uint32_t i, double side)
 		   (uint64_t) fmax((s->home.y - l->origin.y) / side, 0);
 }
 
-static bool
-may_join(const ty_ladder *l, uint32_t a, uint32_t b)
-{
-	return l->sites[a].group == l->sites[b].group;
-}
-
 /* Joins neighbours in the list. How many are left; as many as before when none could be joined. */
 static ty_status
 join_neighbours(ty_ladder *l, uint32_t *list, size_t *count)
@@ -62,9 +56,9 @@ join_neighbours(ty_ladder *l, uint32_t *list, size_t *count)
 
 	for (size_t k = 0; status == TY_OK && k < *count; k++)
 	{
-		if (k + 1 < *count && may_join(l, list[k], list[k + 1]))
+		if (k + 1 < *count && ty_may_join(l, list[k], list[k + 1]))
 		{
-			status = ty_join_sites(l, list[k], list[k + 1], &list[left++]);
+			status = ty_join_sites(l, list[k], list[k + 1], TY_NO_SITE, &list[left++]);
 			k++;
 		}
 		else
@@ -88,7 +82,7 @@ join_closest(ty_ladder *l, uint32_t *list, size_t *count)
 			double dx = l->sites[list[i]].home.x - l->sites[list[j]].home.x;
 			double dy = l->sites[list[i]].home.y - l->sites[list[j]].home.y;
 
-			if (dx * dx + dy * dy < least && may_join(l, list[i], list[j]))
+			if (dx * dx + dy * dy < least && ty_may_join(l, list[i], list[j]))
 			{
 				least = dx * dx + dy * dy;
 				a = i;
@@ -97,7 +91,7 @@ join_closest(ty_ladder *l, uint32_t *list, size_t *count)
 		}
 	if (a == b)
 		return TY_OK;
-	status = ty_join_sites(l, list[a], list[b], &list[a]);
+	status = ty_join_sites(l, list[a], list[b], TY_NO_SITE, &list[a]);
 	list[b] = list[--*count];
 	return status;
 }

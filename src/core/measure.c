@@ -319,7 +319,10 @@ extend_chain(ty_point *hull, size_t count, size_t least, ty_point p)
 	return count;
 }
 
-/* Convex hull, counter-clockwise, by Andrew's monotone chain (1979): lower chain, then upper. Returns its size. */
+/*
+ * Convex hull, counter-clockwise, by Andrew's monotone chain (1979): lower chain, then upper. Returns its size; of two
+ * points or more the first follows the last once more.
+ */
 static size_t
 convex_hull(ty_point *points, size_t n, ty_point *hull)
 {
@@ -331,7 +334,7 @@ convex_hull(ty_point *points, size_t n, ty_point *hull)
 	lower = count;
 	for (size_t i = n - 1; i-- > 0;)
 		count = extend_chain(hull, count, lower, points[i]);
-	return n > 1 ? count - 1 : count; /* the last point is the first again */
+	return n > 1 ? count - 1 : count;
 }
 
 static double
@@ -346,11 +349,9 @@ farthest(const ty_point *hull, size_t n, size_t corner, ty_point direction)
 {
 	for (size_t steps = 0; steps < n; steps++)
 	{
-		size_t next = corner + 1 < n ? corner + 1 : 0;
-
-		if (!(along(direction, hull[corner], hull[next]) > 0))
+		if (!(along(direction, hull[corner], hull[corner + 1]) > 0))
 			break;
-		corner = next;
+		corner = corner + 1 < n ? corner + 1 : 0;
 	}
 	return corner;
 }
@@ -359,7 +360,8 @@ static ty_point
 unit(ty_point a, ty_point b)
 {
 	double dx = b.x - a.x, dy = b.y - a.y;
-	double largest = fmax(fabs(dx), fabs(dy));
+	double wide = fabs(dx), high = fabs(dy);
+	double largest = wide > high || isnan(high) ? wide : high; /* fmax(), which is a call of the C library */
 	double length;
 
 	dx /= largest; /* first, so that no square over- or underflows */
@@ -375,7 +377,7 @@ static void
 unit_edges(const ty_point *hull, size_t n, size_t first, ty_point edge[EDGES_AHEAD])
 {
 	for (size_t i = first; i < n && i < first + EDGES_AHEAD; i++)
-		edge[i - first] = unit(hull[i], hull[i + 1 < n ? i + 1 : 0]);
+		edge[i - first] = unit(hull[i], hull[i + 1]);
 }
 
 /* the longer side's direction, turned into [0, 180) */

@@ -205,25 +205,67 @@ contract(ty_mesh *mesh, uint32_t h, uint32_t kept, uint32_t gone, ty_position to
 	mesh->live--;
 }
 
+/* A vertex as seen from the merged one, with its squared distance. */
+typedef struct seen
+{
+	uint32_t vertex;
+	int64_t x, y, lift;
+} seen;
+
+static inline seen
+look_at(const ty_mesh *mesh, uint32_t from, uint32_t vertex)
+{
+	ty_position o = mesh->vertex[from].position, p = mesh->vertex[vertex].position;
+	int64_t x = (int64_t) p.x - o.x, y = (int64_t) p.y - o.y;
+
+	return (seen){vertex, x, y, x * x + y * y};
+}
+
+static inline int64_t
+cross(seen a, seen b)
+{
+	return a.x * b.y - a.y * b.x;
+}
+
+/*
+ * ty_circle_holds(v, a, b, d), with the determinant taken relative to v: seen from there each corner of a ring is in
+ * six of them, so that nearly half of the products are there already. ab, bd and da are the cross products.
+ */
+static inline bool
+circle_holds_seen(const ty_mesh *mesh, uint32_t v, seen a, seen b, seen d, int64_t ab, int64_t bd, int64_t da)
+{
+	__int128 sum = (__int128) a.lift * bd + (__int128) b.lift * da + (__int128) d.lift * ab;
+
+	return sum != 0 ? sum < 0 : ty_circle_holds(mesh, v, a.vertex, b.vertex, d.vertex);
+}
+
 /* Queues the spokes and outer edges of the ring of v that are not Delaunay. */
 static ty_status
 push_ring(ty_mesh *mesh, uint32_t v)
 {
-	uint32_t a = ring_corner(mesh, mesh->ring_count - 1), b = ring_corner(mesh, 0);
+	seen a = look_at(mesh, v, ring_corner(mesh, mesh->ring_count - 1)), b = look_at(mesh, v, ring_corner(mesh, 0));
+	int64_t ab = cross(a, b);
 	ty_status status = TY_OK;
 
 	for (size_t i = 0; i < mesh->ring_count && status == TY_OK; i++)
 	{
-		uint32_t c = ring_corner(mesh, i + 1);
+		seen c = look_at(mesh, v, ring_corner(mesh, i + 1));
+		int64_t bc = cross(b, c);
 		uint32_t edge = ty_next_in_triangle(mesh->ring[i]);
 		uint32_t beyond = ty_origin(mesh, ty_previous_in_triangle(ty_opposite(mesh, edge)));
 
-		if (ty_circle_holds(mesh, v, a, b, c))
+		if (circle_holds_seen(mesh, v, a, b, c, ab, bc, cross(c, a)))
 			status = push(mesh, mesh->ring[i]);
-		if (status == TY_OK && beyond != TY_GHOST && ty_circle_holds(mesh, v, b, c, beyond))
-			status = push(mesh, edge);
+		if (status == TY_OK && beyond != TY_GHOST)
+		{
+			seen d = look_at(mesh, v, beyond);
+
+			if (circle_holds_seen(mesh, v, b, c, d, bc, cross(c, d), cross(d, b)))
+				status = push(mesh, edge);
+		}
 		a = b;
 		b = c;
+		ab = bc;
 	}
 	mesh->work += 2 * mesh->ring_count;
 	return status;

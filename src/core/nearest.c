@@ -69,9 +69,8 @@ join_children(ty_nearest *tree, size_t node)
 	enlarge(&tree->boxes[node], &tree->boxes[2 * node + 1]);
 }
 
-/* A whole number of [0, 2^30] that grows with the coordinate; how it rounds is only a matter of speed. */
-static int32_t
-cell(double value, double low, double high)
+int32_t
+ty_nearest_cell(double value, double low, double high)
 {
 	double share = value / 2 - low / 2;
 	double side = high / 2 - low / 2;
@@ -96,7 +95,8 @@ sort_points(const ty_environment *env, ty_nearest *tree, uint64_t *keys)
 	for (size_t i = 0; i < tree->count; i++)
 	{
 		ty_point p = tree->points[i];
-		ty_position position = {cell(p.x, all.low_x, all.high_x), cell(p.y, all.low_y, all.high_y)};
+		ty_position position = {ty_nearest_cell(p.x, all.low_x, all.high_x),
+								ty_nearest_cell(p.y, all.low_y, all.high_y)};
 
 		keys[i] = ty_hilbert_key(position);
 		tree->order[i] = (uint32_t) i;

@@ -30,6 +30,12 @@ typedef struct ty_nearest
 	ty_nearest_box *boxes; /* [2 * leaves] */
 } ty_nearest;
 
+/*
+ * A whole number of [0, 2^30] that grows with the coordinate from low to high, for a Hilbert key; how it rounds is only
+ * a matter of speed.
+ */
+int32_t ty_nearest_cell(double value, double low, double high);
+
 /* sqrt(dx^2 + dy^2), rounded after each operation: it never shrinks when dx or dy grows */
 double ty_distance(ty_point a, ty_point b);
 

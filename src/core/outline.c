@@ -31,6 +31,13 @@ fit_box(ty_outline *outline)
 	}
 }
 
+void
+ty_outline_set_centre(ty_outline *outline, ty_point centre)
+{
+	outline->centre = centre;
+	fit_box(outline);
+}
+
 ty_status
 ty_outline_measure(const ty_environment *env, ty_outline *outline, bool *drawable)
 {

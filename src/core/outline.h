@@ -53,6 +53,9 @@ ty_size ty_outline_drawn_size(const ty_parameters *p, const ty_outline *outline,
 /* The centre of the minimum-area rectangle, from the outline's centre, when lengths are scaled by factor. */
 ty_point ty_outline_box_centre(const ty_outline *outline, double factor);
 
+/* Takes another point for the centre, about which the outline is placed and scaled. */
+void ty_outline_set_centre(ty_outline *outline, ty_point centre);
+
 /*
  * Moves the outline's centre to a place and scales it about it, lengths by factor > 0. A factor of 1 at its own
  * centre leaves every point as it is.

@@ -117,6 +117,8 @@ ty_bring_to_ground(ty_parameters *p, double metres_per_unit)
 	p->min_side *= length;
 	p->max_area *= length * length;
 	p->min_gap *= length;
+	p->barrier_width *= length;
+	p->keep_area *= length * length;
 }
 
 double

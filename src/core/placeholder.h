@@ -7,6 +7,8 @@
 #include "environment.h"
 #include "measure.h"
 
+#include <math.h>
+
 typedef enum ty_count_rule
 {
 	TY_RADICAL = 0, /* radical law with exponent (Toepfer and Pillewizer 1966) */
@@ -28,6 +30,12 @@ typedef enum ty_shape
 	TY_AUTO		  /* its outline where it is kept or large, else a rectangle */
 } ty_shape;
 
+/* Tells barriers apart, whose lines are part of the input (ty_input); both 0: none. */
+typedef struct ty_barrier_hash
+{
+	uint64_t low, high;
+} ty_barrier_hash;
+
 /* Every value resolved: defaults applied, checks done by the caller. */
 typedef struct ty_parameters
 {
@@ -43,11 +51,23 @@ typedef struct ty_parameters
 	ty_count_rule count_rule;
 	ty_area_statistic area_statistic;
 	ty_shape shape;
+	double min_area;  /* square ground units, 0: off; a smaller building is a shed */
+	double alignment; /* how much longer an edge counts that leaves a row of buildings; 0: rows are not looked for */
 	/* legibility, 0: off. Millimetres on the map as options say them, ground units after ty_bring_to_ground. */
-	double min_side; /* shortest side that is drawn */
-	double max_area; /* nothing is enlarged beyond it */
-	double min_gap;	 /* between placeholders */
+	double min_side;	  /* shortest side that is drawn */
+	double max_area;	  /* nothing is enlarged beyond it */
+	double min_gap;		  /* between placeholders */
+	double keep_area;	  /* buildings of this true area are kept */
+	double barrier_width; /* of the symbol of the barriers */
+	ty_barrier_hash barriers;
 } ty_parameters;
+
+/* Whether a building is kept (spec 2.5 and 4.3), for itself or for its size. p: in ground units. */
+static inline bool
+ty_is_kept(const ty_parameters *p, double area, double importance)
+{
+	return importance == INFINITY || (p->keep_area > 0 && area >= p->keep_area);
+}
 
 /* whether buildings' outlines are needed */
 static inline bool

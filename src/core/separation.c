@@ -11,7 +11,7 @@ typedef struct relation
 } relation;
 
 static relation
-relate(const ty_box *a, const ty_box *b)
+relate(const ty_oblong *a, const ty_oblong *b)
 {
 	double dx = b->x - a->x, dy = b->y - a->y;
 
@@ -21,14 +21,14 @@ relate(const ty_box *a, const ty_box *b)
 
 /* the vector (along, across) of the frame of a, in the plane */
 static ty_point
-in_the_plane(const ty_box *a, double along, double across)
+in_the_plane(const ty_oblong *a, double along, double across)
 {
 	return (ty_point){along * a->ux - across * a->uy, along * a->uy + across * a->ux};
 }
 
 /* Two of the four separating axes: how far b is beyond the sides of a. *away leaves a along the better one. */
 static double
-beyond_sides(const ty_box *a, const ty_box *b, const relation *r, ty_point *away)
+beyond_sides(const ty_oblong *a, const ty_oblong *b, const relation *r, ty_point *away)
 {
 	double cosine = fabs(r->cosine), sine = fabs(r->sine);
 	double along = fabs(r->along) - (a->half_length + b->half_length * cosine + b->half_width * sine);
@@ -54,7 +54,7 @@ outside(double x, double half)
 
 /* The corner of b that is nearest to a, which does not overlap it: squared distance, and the way there from a. */
 static double
-nearest_corner(const ty_box *a, const ty_box *b, const relation *r, ty_point *way)
+nearest_corner(const ty_oblong *a, const ty_oblong *b, const relation *r, ty_point *way)
 {
 	double least = INFINITY, along = 0, across = 0;
 
@@ -78,7 +78,7 @@ nearest_corner(const ty_box *a, const ty_box *b, const relation *r, ty_point *wa
 
 /* Of two that do not overlap, the nearest points are a corner of one and a point of the other. */
 static double
-corner_distance(const ty_box *a, const ty_box *b, const relation *ab, const relation *ba, ty_point *away)
+corner_distance(const ty_oblong *a, const ty_oblong *b, const relation *ab, const relation *ba, ty_point *away)
 {
 	ty_point back;
 	double squared = nearest_corner(a, b, ab, away), other = nearest_corner(b, a, ba, &back);
@@ -96,7 +96,7 @@ corner_distance(const ty_box *a, const ty_box *b, const relation *ab, const rela
 }
 
 double
-ty_lack(const ty_box *a, const ty_box *b, double gap, ty_point *away)
+ty_lack(const ty_oblong *a, const ty_oblong *b, double gap, ty_point *away)
 {
 	relation ab = relate(a, b), ba;
 	ty_point back, way;
@@ -125,7 +125,7 @@ ty_lack(const ty_box *a, const ty_box *b, double gap, ty_point *away)
 }
 
 double
-ty_extent(const ty_box *box, ty_point n)
+ty_extent(const ty_oblong *box, ty_point n)
 {
 	return box->half_length * fabs(n.x * box->ux + n.y * box->uy) +
 		   box->half_width * fabs(n.y * box->ux - n.x * box->uy);

@@ -9,21 +9,21 @@
 #include "measure.h"
 
 /* A rectangle in any direction: centre, unit vector along the length, and half of both sides. */
-typedef struct ty_box
+typedef struct ty_oblong
 {
 	double x, y;
 	double ux, uy;
 	double half_length, half_width;
-} ty_box;
+} ty_oblong;
 
 /*
  * By how much two rectangles are nearer than gap > 0: 0 where their distance is gap or more, else at most what it
  * takes to bring them that far apart, along *away, the unit vector in which b leaves a. Rectangles that overlap are
  * taken apart across a side, where that is shortest.
  */
-double ty_lack(const ty_box *a, const ty_box *b, double gap, ty_point *away);
+double ty_lack(const ty_oblong *a, const ty_oblong *b, double gap, ty_point *away);
 
 /* half of what the rectangle takes up along the unit vector n */
-double ty_extent(const ty_box *box, ty_point n);
+double ty_extent(const ty_oblong *box, ty_point n);
 
 #endif

@@ -138,7 +138,8 @@ bench_collapse(bench *b, double s_u, size_t count)
 
 	memcpy(b->moved, b->position, b->n * sizeof *b->moved);
 	start = clock_seconds();
-	check(ty_collapse(&ty_plain_environment, b->moved, b->n, s_u, NULL, stop, false, NULL, NULL, &sequence), b, "collapse");
+	check(ty_collapse(&ty_plain_environment, b->moved, b->n, s_u, NULL, stop, false, NULL, NULL, &sequence), b,
+		  "collapse");
 	seconds = clock_seconds() - start;
 	ty_sequence_free(&ty_plain_environment, &sequence);
 	return seconds;

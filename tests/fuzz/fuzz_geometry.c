@@ -26,6 +26,46 @@ check_building(const ty_building *b)
 	demand(b->id == 0);
 }
 
+typedef struct visited
+{
+	size_t points;
+	double sum; /* reads them all */
+} visited;
+
+static bool
+visit(void *context, const unsigned char *points, size_t stride, uint32_t n)
+{
+	visited *v = context;
+
+	for (uint32_t i = 0; i < n; i++)
+	{
+		double xy[2];
+
+		memcpy(xy, points + i * stride, sizeof xy);
+		v->sum += xy[0] + xy[1];
+	}
+	v->points += n;
+	return true;
+}
+
+static void
+check_lines(const unsigned char *payload, size_t size, ty_geometry_status points)
+{
+	visited v = {0, 0};
+	int32_t srid = -1;
+	uint32_t type = 0;
+	ty_geometry_status status = ty_geometry_visit_lines(payload, size, visit, &v, &srid, &type);
+
+	demand(status <= TY_GEOMETRY_CORRUPT);
+	demand(v.points * 2 * sizeof(double) <= size);
+	if (status == TY_GEOMETRY_OK)
+		demand(points == TY_GEOMETRY_OK && v.points > 0);
+	if (status == TY_GEOMETRY_EMPTY)
+		demand(points == TY_GEOMETRY_EMPTY && v.points == 0);
+	if (status == TY_GEOMETRY_CORRUPT)
+		demand(points != TY_GEOMETRY_EMPTY);
+}
+
 /* An outline, if there is one, is within its rectangle, and is written and read back as it is. */
 static void
 check_outline(const unsigned char *payload, size_t size)
@@ -72,6 +112,7 @@ check_answers(const unsigned char *payload, size_t size)
 	if (status == TY_GEOMETRY_NOT_FINITE && ty_geometry_find_not_finite(payload, size, &value))
 		demand(!isfinite(value));
 	demand(ty_geometry_type_name(type) != NULL);
+	check_lines(payload, size, points);
 }
 
 int

@@ -78,23 +78,26 @@ LLVMFuzzerTestOneInput(const unsigned char *data, size_t size)
 {
 	static ty_position moved[MOST];
 	ty_sequence sequence;
+	const char *difference;
 
 	if (size < HEADER + 2)
 		return 0;
 	read_input(data, size);
 	if (in.n <= COMPARED)
 	{
-		const char *difference = compare_with_reference(in.position, in.n, in.s_u, NULL, in.stop, REFERENCE_MESH);
-
+		difference = compare_with_reference(in.position, in.n, in.s_u, NULL, in.stop, REFERENCE_MESH);
 		if (difference != NULL)
 			give_up(difference);
 		return 0;
 	}
 	for (size_t i = 0; i < in.n; i++)
 		moved[i] = in.position[i];
-	if (ty_collapse(&ty_plain_environment, moved, in.n, in.s_u, NULL, in.stop, true, check_after_merge, NULL, &sequence) !=
-		TY_OK)
+	if (ty_collapse(&ty_plain_environment, moved, in.n, in.s_u, NULL, in.stop, true, check_after_merge, NULL,
+					&sequence) != TY_OK)
 		give_up("no success");
+	difference = compare_unwatched(in.position, in.n, in.s_u, NULL, in.stop, &sequence, moved);
+	if (difference != NULL)
+		give_up(difference);
 	ty_sequence_free(&ty_plain_environment, &sequence);
 	return 0;
 }

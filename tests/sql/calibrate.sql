@@ -137,5 +137,5 @@ SELECT a AS arguments, regexp_replace(pg_temp.error_of(format('SELECT * FROM typ
 	'''wrong'', ''lod200'', id_column => ''twice''', '''wrong'', ''lod200'', 0, ''block'', id_column => ''twice''',
 	'''wrong'', ''lod200'', geom_column => ''elsewhere''', '''wrong'', ''lod200'', geom_column => ''both''', '''lod25'', ''wrong'', lod200_geom_column => ''both''', '''wrong'', ''wrong'', geom_column => ''degrees'', lod200_geom_column => ''degrees''',
 	'''lod25'', ''empty200''', '''lod200'', ''lod25''', '''lod25'', ''lod200'', 0, ''block'', links => ''link''', '''lod25'', ''lod200'', links => ''lod200''', '''lod25'', ''lod200'', links => ''two_links''', '''lod25'', ''twice200'', links => ''link''', '''lod25'', ''lod200'', links => ''link'', lod200_group_by => ''block''', '''spoilt'', ''named'', 0, ''block''',
-	'''lod25'', ''lod200'', options => typify_options(lod200_scale => 20000)', '''lod25'', ''lod200'', options => typify_options(source_scale => 300000)', '''lod25'', ''lod200'', options => typify_options(shape => ''auto'')'
+	'''lod25'', ''lod200'', options => typify_options(lod200_scale => 20000)', '''lod25'', ''lod200'', options => typify_options(source_scale => 300000)', '''lod25'', ''lod200'', options => jsonb_populate_record(NULL::typify_options, ''{"shape": "round"}'')'
 ]) WITH ORDINALITY AS a (a, number) ORDER BY number;

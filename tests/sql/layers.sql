@@ -226,7 +226,7 @@ FROM unnest(ARRAY['NULL, NULL, 75000', '''lod25'', NULL, NULL', '''lod25'', NULL
 	'''lod25'', NULL, 75000, allocation => ''fair''', '''lod25'', NULL, 75000, id_column => NULL', '''lod25'', NULL, 75000, geom_column => NULL',
 	'''lod25'', NULL, 75000, lod200_geom_column => NULL', '''lod25'', NULL, 75000, id_column => ''no''', '''lod25'', NULL, 75000, geom_column => ''id''',
 	'''lod25'', NULL, 75000, group_by => ''no''', '''no_such_table'', NULL, 75000', '''lod25_pkey'', NULL, 75000', '1, NULL, 75000', '''lod25'', ''lod200_pkey'', 75000',
-	'''lod25'', NULL, 24999', '''lod25'', NULL, 75000, 2', '''lod25'', NULL, 75000, options => typify_options(shape => ''auto'')']) WITH ORDINALITY AS a (a, number)
+	'''lod25'', NULL, 24999', '''lod25'', NULL, 75000, 2', '''lod25'', NULL, 75000, options => jsonb_populate_record(NULL::typify_options, ''{"shape": "round"}'')']) WITH ORDINALITY AS a (a, number)
 ORDER BY number;
 SELECT pg_temp.error_of('CALL typify_build_scale(''wrong'', ''lod25'', NULL, 75000, batch => 0)'), pg_temp.error_of('CALL typify_build_scale(''wrong'', ''lod25'', NULL, 75000, batch => NULL)');
 SELECT pg_temp.error_of('CALL typify_build_scale(''layer75'', ''lod25'', NULL, 75000)'), pg_temp.error_of('CALL typify_build_scale(''lod25'', ''lod25'', NULL, 75000)');

@@ -69,4 +69,4 @@ RESET client_min_messages;
 -- one group on another: half of it does not fit
 CREATE TEMP TABLE twins AS SELECT i AS id, i % 2 AS block, ST_MakeEnvelope(i / 2 * 60, 0, i / 2 * 60 + 10, 10) AS geom FROM generate_series(0, 19) AS i;
 SELECT count(*) AS rows, count(geom) AS drawn, sum(member_count) AS members FROM typify_derive('twins', NULL, 100000, group_by => 'block', options => typify_options(exponent => 0, min_side => 0.35, min_gap => 0.2));
-SELECT pg_temp.error_of('SELECT typify_settle(1, 1, 1, 0, ARRAY[1.0])');
+SELECT pg_temp.error_of('SELECT typify_settle(1, 1, 1, 0, ARRAY[1.0], NULL)');

@@ -89,7 +89,7 @@ SELECT arguments, pg_temp.error_of(format('SELECT * FROM typify_match(%s)', argu
 	$$'wrong', 'many', id_column => 'number', geom_column => 'curve'$$, $$'few', '"LOD 200"', lod200_id_column => 'fid', lod200_geom_column => 'shape'$$,
 	$$'few', 'many', 1.5$$, $$'few', 'many', NULL$$, $$'few', 'many', max_distance => -1$$, $$'few', 'many', max_distance => 'NaN'$$, $$'few', 'many', max_distance => NULL$$,
 	$$'few', 'many', options => typify_options(count => 5)$$, $$'few', 'many', options => typify_options(min_distance => 5)$$,
-	$$'few', 'many', options => typify_options(lod200_scale => 20000)$$, $$'few', 'many', options => typify_options(alignment => 1)$$]) WITH ORDINALITY AS a (arguments, n) ORDER BY n;
+	$$'few', 'many', options => typify_options(lod200_scale => 20000)$$, $$'few', 'many', options => jsonb_populate_record(NULL::typify_options, '{"shape": "round"}')$$]) WITH ORDINALITY AS a (arguments, n) ORDER BY n;
 
 -- three schemas, none on the search_path, for a role that owns only its tables; also as a materialized view
 CREATE ROLE regress_typify_owner;

@@ -31,6 +31,17 @@ FROM building AS b, unnest((SELECT typify_placeholders(geom, id, 100000, 0, typi
 	FROM building WHERE id < 6)) AS p
 WHERE b.id = p.id ORDER BY b.id;
 
+-- auto: kept buildings have their own outline without small detours, in place and with their own area; others a rectangle
+CREATE TEMP TABLE town AS SELECT * FROM building WHERE id IN (1, 2, 3) UNION ALL VALUES
+	(7, 'hall with a niche', 'POLYGON((0 100, 40 100, 40 110, 39.5 110, 39.5 112, 40 112, 40 140, 20 140, 20 120, 0 120, 0 100))'::geometry),
+	(8, 'bow-tie', 'POLYGON((100 100, 150 140, 150 100, 100 140, 100 100))');
+SELECT b.name, ST_AsText(ST_SnapToGrid(p.geom, 0.01)) AS drawn, round((ST_Area(p.geom) / ST_Area(b.geom))::numeric, 3) AS factor, p.member_count
+FROM town AS b, unnest((SELECT typify_placeholders(geom, id, 50000, 0, typify_options(shape => 'auto', exponent => 0, keep_area => 0.2)) FROM town)) AS p
+WHERE b.id = p.id ORDER BY b.id;
+SELECT b.name, round(ST_Distance(ST_Centroid(p.geom), ST_Centroid(b.geom))::numeric, 2) AS moved, ST_NPoints(p.geom) AS points, round(p.area::numeric, 3) AS area, p.members
+FROM town AS b, unnest((SELECT typify_placeholders(geom, id, 1000000, 0, typify_options(shape => 'auto', keep_area => 100), CASE id WHEN 2 THEN float8 'Infinity' END) FROM town)) AS p
+WHERE b.id = p.id ORDER BY b.id;
+
 -- the aggregate of geometries draws the same; a cast to text and back, that PostGIS writes it the same; any order of rows
 CREATE TEMP TABLE many AS SELECT i AS id, i % 3 AS block, ST_SetSRID(CASE WHEN i % 3 = 0 THEN ST_Translate(l.geom, x, y) WHEN i % 3 = 1 THEN ST_MakeEnvelope(x, y, x + 9, y + 12)
 	ELSE ST_Multi(ST_Translate(t.geom, x - 400, y)) END, 2056) AS geom

@@ -56,6 +56,9 @@ END
 $$;
 SELECT "My Maps".differing('"My Maps"."Layer 75"', '"My Maps".derived') AS layer, "My Maps".differing('"My Maps"."Table 75"', '"My Maps".squares') AS "table", "My Maps".differing('"My Maps"."Built 75"', '"My Maps".squares') AS built;
 
+CREATE TABLE "My Maps"."The Roads" AS SELECT "Post GIS".ST_SetSRID("Post GIS".ST_MakeLine("Post GIS".ST_MakePoint(0, 900), "Post GIS".ST_MakePoint(9000, 900)), 25832) AS "The Line";
+SELECT buildings, reached, lost, barrier_crossings, road_angle IS NOT NULL AS road_angle, dense_groups FROM "Typify, 1".typify_quality('"My Maps"."Houses, 25"', '"My Maps"."Layer 75"', 75000, 'Block "A"', barriers => '"My Maps"."The Roads"', id_column => 'Id', geom_column => 'The Geom', barriers_geom_column => 'The Line');
+
 -- a name without a schema goes where the caller creates things, not where typify is
 SELECT "Typify, 1".typify_create_scale('nowhere', '"My Maps"."Houses, 25"', NULL, 75000, id_column => 'Id', geom_column => 'The Geom');
 SET search_path = "My Maps";

@@ -66,6 +66,22 @@ LATERAL (VALUES
 	(5, 'none', typify_svg_sheet(ARRAY[NULL, NULL]))
 ) AS sheet(number, name, svg) ORDER BY number;
 
+-- barriers as wide as their symbol, rows over both panels, violations: an overlap of 1 mm2 and a gap of 0.1 mm
+CREATE TEMP TABLE tight AS
+SELECT ST_GeomFromText('GEOMETRYCOLLECTION(POLYGON((0 0,100 0,100 100,0 100,0 0)),POLYGON((50 50,150 50,150 150,50 150,50 50)),
+	POLYGON((155 50,255 50,255 150,155 150,155 50)),MULTIPOLYGON(((300 0,400 0,400 50,300 50,300 0)),((300 52,400 52,400 100,300 100,300 52))),
+	POINT(0 0),LINESTRING(0 0,50 50))', 25832) AS after,
+	ST_GeomFromText('MULTILINESTRING((-50 -50,450 -50))', 25832) AS barriers, ST_GeomFromText('LINESTRING(0 50,400 50)', 25832) AS rows;
+SELECT typify_svg(NULL, after, 50000, barriers => barriers, barrier_width => 0.5, rows => rows, min_gap => 0.2) FROM tight;
+SELECT n, regexp_match(svg, '[0-9]+ overlaps?, [^<]*') AS words, pg_temp.size(svg) AS size, pg_temp.well_formed(svg),
+	(SELECT count(*) FROM regexp_matches(svg, '#1f77b4" stroke-width="0.15"', 'g')) AS rows, svg ~ 'e08e79" stroke-width="1.5"' AS barriers
+FROM tight, LATERAL (VALUES (1, typify_svg(after, after, 50000, magnify => 3, barriers => barriers, barrier_width => 0.5, rows => rows, min_gap => 0)),
+	(2, typify_svg(NULL, after, 50000, min_gap => 0.1)), (3, typify_svg(NULL, after, 50000, min_gap => 0.100001)),
+	(4, typify_svg(NULL, after, 50000, min_gap => 0.2, frame => ST_MakeEnvelope(2000, 0, 2100, 100, 25832)))) AS picture (n, svg) ORDER BY n;
+SELECT kind, round(ST_Area(mark)) AS area, round(ST_Length(mark)) AS length FROM tight, typify_violations(after, 10) ORDER BY kind;
+SELECT count(*) AS of_nothing FROM unnest(ARRAY['GEOMETRYCOLLECTION EMPTY', NULL]::geometry[]) AS geom, typify_violations(geom, 1);
+SELECT count(*) AS polygons FROM tight, unnest(typify_polygons(after));
+
 -- errors
 CREATE FUNCTION pg_temp.fails(statement text) RETURNS text LANGUAGE plpgsql AS
 $$ DECLARE
@@ -95,5 +111,9 @@ SELECT pg_temp.fails('SELECT typify_svg(''POINT(1 1)'', NULL, 50000, ST_MakePoin
 SELECT pg_temp.fails('SELECT typify_svg(ST_MakePoint(1, 1, ''NaN''), NULL, 50000)') AS height;
 SELECT ST_AsText(ST_MakePolygon(ST_ExteriorRing(geom))) AS as_the_hint_says FROM ST_Dump('TIN(((0 0,1 0,1 1,0 0)))');
 
+SELECT pg_temp.fails('SELECT typify_svg(''POINT(1 1)'', NULL, 50000, ' || argument || ')') AS barriers_rows_gaps
+FROM unnest(ARRAY['barriers => ''CIRCULARSTRING(0 0,1 1,2 0)''', 'rows => ''SRID=25833;LINESTRING(0 0,1 1)''', 'barrier_width => -1',
+	'barrier_width => NULL', 'min_gap => ''NaN''']) AS argument;
+SELECT pg_temp.fails('SELECT typify_violations(''POINT(1 1)'', -1)') AS violations;
 SELECT pg_temp.fails('SELECT typify_svg_sheet(ARRAY[''<p/>''])');
 SELECT pg_temp.fails('SELECT typify_svg_sheet(ARRAY[''<p/>''], 0)');

@@ -180,6 +180,28 @@ check_need_of_last(const ty_position *position, const comparison *c, double s_u,
 }
 
 const char *
+compare_unwatched(const ty_position *position, size_t n, double s_u, const ty_influence *influence, ty_stop stop,
+				  const ty_sequence *watched, const ty_position *end)
+{
+	ty_position moved[REFERENCE_MAX];
+	ty_sequence s = {0, NULL, NULL, NULL};
+	bool same;
+
+	memcpy(moved, position, n * sizeof *moved);
+	if (influence != NULL && influence->rows != NULL)
+		reset_rows(influence->rows, n);
+	if (ty_collapse(&ty_plain_environment, moved, n, s_u, influence, stop, true, NULL, NULL, &s) != TY_OK)
+		return "the core gives an error when nobody watches";
+	same = s.count == watched->count && memcmp(moved, end, n * sizeof *moved) == 0;
+	if (same && s.count > 0)
+		same = memcmp(s.kept, watched->kept, s.count * sizeof *s.kept) == 0 &&
+			   memcmp(s.gone, watched->gone, s.count * sizeof *s.gone) == 0 &&
+			   memcmp(s.cost, watched->cost, s.count * sizeof *s.cost) == 0;
+	ty_sequence_free(&ty_plain_environment, &s);
+	return same ? NULL : "the core merges otherwise when nobody watches";
+}
+
+const char *
 compare_with_reference(const ty_position *position, size_t n, double s_u, const ty_influence *influence, ty_stop stop,
 					   reference_candidates candidates)
 {
@@ -198,6 +220,8 @@ compare_with_reference(const ty_position *position, size_t n, double s_u, const 
 	if (status != TY_OK)
 		return "the core gives an error";
 	difference = compare_sequence(&c, &sequence, stop);
+	if (difference == NULL)
+		difference = compare_unwatched(position, n, s_u, influence, stop, &sequence, moved);
 	ty_sequence_free(&ty_plain_environment, &sequence);
 	if (difference == NULL)
 		difference = compare_positions(&c.ref, moved);
@@ -212,6 +236,7 @@ typedef struct rest
 	ty_position position[REFERENCE_MAX];
 	double importance[REFERENCE_MAX];
 	uint32_t row[REFERENCE_MAX];
+	given_rows rows;
 	ty_influence influence; /* of these arrays */
 } rest;
 
@@ -230,7 +255,9 @@ copy_without(rest *to, const rest *from, size_t n, size_t without)
 	}
 	to->influence = from->influence;
 	to->influence.importance = from->influence.importance == NULL ? NULL : to->importance;
-	to->influence.row = from->influence.row == NULL ? NULL : to->row;
+	to->influence.rows = from->influence.rows == NULL ? NULL : &to->rows.rows;
+	if (from->influence.rows != NULL)
+		give_rows(&to->rows, to->row, count, (uint32_t) from->influence.rows->count, from->influence.rows->spacing[0]);
 }
 
 size_t
@@ -245,8 +272,12 @@ compare_minimise(ty_position *position, size_t n, double s_u, const ty_influence
 		set.influence = *influence;
 	if (set.influence.importance != NULL)
 		memcpy(set.importance, influence->importance, n * sizeof *set.importance);
-	if (set.influence.row != NULL)
-		memcpy(set.row, influence->row, n * sizeof *set.row);
+	if (set.influence.rows != NULL)
+		for (size_t r = 0; r < n; r++)
+			set.row[r] = TY_NONE;
+	for (uint32_t r = 0; set.influence.rows != NULL && r < set.influence.rows->count; r++)
+		for (uint32_t i = influence->rows->first[r]; i < influence->rows->first[r + 1]; i++)
+			set.row[influence->rows->member[i]] = r;
 	for (size_t i = 0; i < n;)
 	{
 		ty_stop held = stop;

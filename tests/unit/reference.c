@@ -144,6 +144,34 @@ reference_delaunay(const ty_position *at, const uint32_t *list, size_t m, refere
 }
 
 void
+reset_rows(ty_rows *rows, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		rows->span[i] = (ty_span){TY_NONE, 0, 0};
+	for (uint32_t r = 0; r < rows->count; r++)
+		for (uint32_t i = rows->first[r]; i < rows->first[r + 1]; i++)
+			rows->span[rows->member[i]] = (ty_span){r, i - rows->first[r], i - rows->first[r]};
+}
+
+void
+give_rows(given_rows *given, const uint32_t *row, size_t n, uint32_t count, double spacing)
+{
+	uint32_t members = 0;
+
+	given->rows = (ty_rows){count, given->first, given->member, given->spacing, given->span};
+	for (uint32_t r = 0; r < count; r++)
+	{
+		given->first[r] = members;
+		given->spacing[r] = spacing;
+		for (uint32_t i = 0; i < n; i++)
+			if (row[i] == r)
+				given->member[members++] = i;
+	}
+	given->first[count] = members;
+	reset_rows(&given->rows, n);
+}
+
+void
 reference_begin(reference *ref, const ty_position *position, size_t n, double s_u, const ty_influence *influence,
 				reference_candidates candidates)
 {
@@ -151,6 +179,8 @@ reference_begin(reference *ref, const ty_position *position, size_t n, double s_
 	ref->s_u = s_u;
 	ref->influence = influence;
 	ref->candidates = candidates;
+	if (influence != NULL && influence->rows != NULL)
+		reset_rows(influence->rows, n);
 	for (size_t i = 0; i < n; i++)
 	{
 		bool weighted = influence != NULL && influence->importance != NULL;
@@ -158,16 +188,16 @@ reference_begin(reference *ref, const ty_position *position, size_t n, double s_
 		bool kept = isinf(importance) != 0;
 		wide weight = kept ? 0 : (wide) (importance * REFERENCE_UNIT);
 
-		ref->vertex[i] =
-			(reference_vertex){.live = true,
-							   .r = 1,
-							   .kept = kept,
-							   .importance = importance,
-							   .weight = weight,
-							   .sum_x = weight * position[i].x,
-							   .sum_y = weight * position[i].y,
-							   .row = influence != NULL && influence->row != NULL ? influence->row[i] : TY_NO_ROW,
-							   .at = position[i]};
+		ref->vertex[i] = (reference_vertex){
+			.live = true,
+			.r = 1,
+			.kept = kept,
+			.importance = importance,
+			.weight = weight,
+			.sum_x = weight * position[i].x,
+			.sum_y = weight * position[i].y,
+			.span = influence != NULL && influence->rows != NULL ? influence->rows->span[i] : (ty_span){TY_NONE, 0, 0},
+			.at = position[i]};
 	}
 }
 
@@ -186,6 +216,22 @@ true_length(const reference *ref, uint32_t a, uint32_t b)
 	return sqrt((double) (dx * dx + dy * dy));
 }
 
+/* sum / count rounded half up; sums are not negative */
+static int32_t
+rounded_mean(wide sum, wide count)
+{
+	return (int32_t) ((2 * sum + count) / (2 * count));
+}
+
+static ty_position
+merged_place(const reference_vertex *s, const reference_vertex *t)
+{
+	if (s->kept || t->kept)
+		return s->kept ? s->at : t->at;
+	return (ty_position){rounded_mean(s->sum_x + t->sum_x, s->weight + t->weight),
+						 rounded_mean(s->sum_y + t->sum_y, s->weight + t->weight)};
+}
+
 /* INFINITY: there is no such edge */
 static double
 cost_of(const reference *ref, uint32_t a, uint32_t b)
@@ -198,10 +244,14 @@ cost_of(const reference *ref, uint32_t a, uint32_t b)
 	if (s->kept && t->kept)
 		return INFINITY;
 	if (influence != NULL && influence->crosses != NULL && !same_position(s->at, t->at) &&
-		influence->crosses(influence->barriers, s->at, t->at))
+		influence->crosses(influence->barriers, s->at, t->at, merged_place(s, t)))
 		return INFINITY;
 	cost *= s->kept ? t->importance : t->kept ? s->importance : fmax(s->importance, t->importance);
-	return s->row == t->row ? cost : cost * (1 + influence->alignment);
+	if (influence != NULL && influence->rows != NULL && true_length(ref, a, b) > 0)
+		cost *= ty_aligned_length(influence->rows, s->span, t->span, (uint64_t) (s->r + t->r), true_length(ref, a, b),
+								  influence->alignment) /
+				true_length(ref, a, b);
+	return cost;
 }
 
 /*
@@ -279,13 +329,6 @@ reference_can_go_on(const reference *ref)
 	return ref->live > 1 && (ref->influence == NULL || least_edge(ref).cost != INFINITY);
 }
 
-/* sum / count rounded half up; sums are not negative */
-static int32_t
-rounded_mean(wide sum, wide count)
-{
-	return (int32_t) ((2 * sum + count) / (2 * count));
-}
-
 reference_merge
 reference_step(reference *ref)
 {
@@ -293,23 +336,14 @@ reference_step(reference *ref)
 	reference_vertex *kept = &ref->vertex[merge.kept];
 	reference_vertex *gone = &ref->vertex[merge.gone];
 
-	if (gone->kept)
-		kept->at = gone->at;
+	kept->at = merged_place(kept, gone);
 	kept->kept |= gone->kept;
 	kept->r += gone->r;
 	kept->importance = fmax(kept->importance, gone->importance);
 	kept->weight += gone->weight;
 	kept->sum_x += gone->sum_x;
 	kept->sum_y += gone->sum_y;
-	if (kept->row == TY_NO_ROW || gone->row == TY_NO_ROW)
-		kept->row = kept->row == TY_NO_ROW ? gone->row : kept->row;
-	else if (kept->row != gone->row)
-		kept->row = TY_NO_ROW;
-	if (!kept->kept)
-	{
-		kept->at.x = rounded_mean(kept->sum_x, kept->weight);
-		kept->at.y = rounded_mean(kept->sum_y, kept->weight);
-	}
+	kept->span = ty_joined_span(kept->span, gone->span, (uint64_t) kept->r);
 	gone->live = false;
 	ref->live--;
 	return merge;

@@ -22,7 +22,7 @@ typedef struct reference_vertex
 	double importance;	   /* the largest of them */
 	__int128 weight;	   /* REFERENCE_UNIT * sum of their importances; 1 each where there are none */
 	__int128 sum_x, sum_y; /* of the centroids, weighted */
-	uint32_t row;		   /* TY_NO_ROW: none, or several */
+	ty_span span;		   /* what it stands for of a row */
 	ty_position at;		   /* their mean, rounded half up */
 } reference_vertex;
 
@@ -47,6 +47,22 @@ typedef struct reference_merge
 	double cost;
 } reference_merge;
 
+/* Rows for an influence. */
+typedef struct given_rows
+{
+	ty_rows rows; /* of the other arrays */
+	uint32_t first[REFERENCE_MAX + 1], member[REFERENCE_MAX];
+	double spacing[REFERENCE_MAX];
+	ty_span span[REFERENCE_MAX];
+} given_rows;
+
+/* Makes the rows 0 .. count - 1 of the vertices whose row that is, by rank, at the given spacing. TY_NONE: in no row. */
+void give_rows(given_rows *given, const uint32_t *row, size_t n, uint32_t count, double spacing);
+
+/* As they were given, whatever merges have made of them. */
+void reset_rows(ty_rows *rows, size_t n);
+
+/* The rows of the influence are as they were given, whatever merges have made of them. */
 void reference_begin(reference *ref, const ty_position *position, size_t n, double s_u, const ty_influence *influence,
 					 reference_candidates candidates);
 bool reference_must_go_on(const reference *ref, ty_stop stop);

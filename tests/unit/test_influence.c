@@ -28,8 +28,9 @@ struct ty_barriers
 };
 
 static bool
-crosses(const ty_barriers *barriers, ty_position a, ty_position b)
+crosses(const ty_barriers *barriers, ty_position a, ty_position b, ty_position merged)
 {
+	(void) merged; /* nothing between two places on one side of a line is on the other */
 	for (size_t i = 0; i < barriers->count; i++)
 	{
 		int32_t place = barriers->place[i];
@@ -43,7 +44,7 @@ crosses(const ty_barriers *barriers, ty_position a, ty_position b)
 typedef struct drawing
 {
 	double importance[REFERENCE_MAX];
-	uint32_t row[REFERENCE_MAX];
+	given_rows rows;
 	ty_barriers barriers;
 	ty_influence influence; /* of these */
 } drawing;
@@ -76,17 +77,19 @@ draw(random_state *random, const ty_position *position, size_t n, drawing *d)
 {
 	static const double alignments[] = {0, 0.5, 3};
 	static const int64_t shares[] = {0, 1, 3, 10};
+	uint32_t row[REFERENCE_MAX];
 	int64_t what = random_between(random, 1, 7), kept_of_ten = shares[random_between(random, 0, 3)];
 
 	memset(d, 0, sizeof *d);
 	for (size_t i = 0; i < n; i++)
 	{
 		d->importance[i] = draw_importance(random, kept_of_ten);
-		d->row[i] = random_between(random, 0, 1) == 0 ? TY_NO_ROW : (uint32_t) random_between(random, 0, 2);
+		row[i] = random_between(random, 0, 1) == 0 ? TY_NONE : (uint32_t) random_between(random, 0, 2);
 	}
 	draw_barriers(random, position, n, &d->barriers);
 	d->influence.importance = what & 1 ? d->importance : NULL;
-	d->influence.row = what & 2 ? d->row : NULL;
+	give_rows(&d->rows, row, n, 3, ldexp(1.0, (int) random_between(random, 0, 29)));
+	d->influence.rows = what & 2 ? &d->rows.rows : NULL;
 	d->influence.alignment = alignments[random_between(random, 0, 2)];
 	d->influence.crosses = what & 4 ? crosses : NULL;
 	d->influence.barriers = &d->barriers;
@@ -288,9 +291,12 @@ immense_importances_are_edges_all_the_same(void)
 	ty_position position[] = {{0, 0}, {1 << 30, 0}, {1 << 30, 1 << 30}};
 	const double importance[] = {1e308, 1, 1.7e308};
 	uint32_t row[] = {0, 1, 2};
-	const ty_influence influence = {.importance = importance, .row = row, .alignment = 1e300};
-	ty_sequence sequence = collapse(position, 3, &influence, (ty_stop){1, 0});
+	given_rows rows;
+	const ty_influence influence = {.importance = importance, .rows = &rows.rows, .alignment = 1e300};
+	ty_sequence sequence;
 
+	give_rows(&rows, row, 3, 3, 1);
+	sequence = collapse(position, 3, &influence, (ty_stop){1, 0});
 	CHECK(sequence.count == 2, "%zu merges", sequence.count);
 	for (size_t i = 0; i < sequence.count; i++)
 		CHECK(isfinite(sequence.cost[i]), "cost %g", sequence.cost[i]);

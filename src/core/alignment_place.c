@@ -1,0 +1,153 @@
+/*
+ * alignment_place.c - where the placeholders of rows stand, see alignment.h.
+ *
+ * Merges leave gaps of different lengths in a row: a pair beside a single house is half as far again from it as two
+ * single ones are apart. So what is left of a row is laid out anew along the line through its placeholders, each of
+ * which stands for the mean of its members in the row; the ends stay where they are.
+ */
+#include "alignment.h"
+#include "group.h"
+
+#include <math.h>
+
+#define MOST_SPACINGS 4.0
+
+/* placeholders that follow each other in a row */
+typedef struct piece
+{
+	uint32_t count;
+	uint32_t merged; /* how many of them stand for more than one building */
+	uint32_t *label;
+	ty_point *mean;
+	double *along; /* of the means, along the line through them */
+} piece;
+
+/* the mean of the members first .. last of a row */
+static ty_point
+mean_of_members(const ty_drawn_rows *drawn, const uint32_t *member, uint32_t first, uint32_t last)
+{
+	const ty_building *base = &drawn->buildings[drawn->order[member[first]]];
+	ty_point sum = {0, 0};
+
+	for (uint32_t i = first; i <= last; i++)
+	{
+		const ty_building *b = &drawn->buildings[drawn->order[member[i]]];
+
+		sum.x += b->x - base->x;
+		sum.y += b->y - base->y;
+	}
+	return (ty_point){base->x + sum.x / (last - first + 1), base->y + sum.y / (last - first + 1)};
+}
+
+static double
+distance(ty_point a, ty_point b)
+{
+	double dx = a.x - b.x, dy = a.y - b.y;
+
+	return sqrt(dx * dx + dy * dy);
+}
+
+/* the point of the line that is `along` it, between the means at and at + 1 */
+static ty_point
+point_between(const piece *p, uint32_t at, double along)
+{
+	ty_point a = p->mean[at], b = p->mean[at + 1];
+	double length = p->along[at + 1] - p->along[at], share = length > 0 ? (along - p->along[at]) / length : 0;
+
+	return (ty_point){a.x + (b.x - a.x) * share, a.y + (b.y - a.y) * share};
+}
+
+/*
+ * Lays a piece out between its ends. Nobody goes farther than MOST_SPACINGS: merges in their turn need less, of a
+ * thousand members 2.5, but others may have taken members away.
+ */
+static void
+lay_out(const piece *p, ty_placeholder *placeholders)
+{
+	uint32_t last = p->count - 1, at = 0;
+	double spacing, most;
+
+	p->along[0] = 0;
+	for (uint32_t i = 1; i <= last; i++)
+		p->along[i] = p->along[i - 1] + distance(p->mean[i - 1], p->mean[i]);
+	spacing = p->along[last] / last;
+	most = MOST_SPACINGS * spacing;
+	for (uint32_t i = 0; i <= last; i++)
+	{
+		double along = fmax(fmin(spacing * i, p->along[i] + most), p->along[i] - most);
+		ty_point to = p->mean[i];
+
+		while (at + 1 < last && p->along[at + 1] <= along)
+			at++;
+		if (i > 0 && i < last)
+			to = point_between(p, at, along);
+		placeholders[p->label[i]].x = to.x;
+		placeholders[p->label[i]].y = to.y;
+	}
+}
+
+/* A piece is complete: lays it out where there is anything to even, and begins the next. */
+static void
+end_piece(piece *p, ty_placeholder *placeholders)
+{
+	if (p->count > 1 && p->merged > 0)
+		lay_out(p, placeholders);
+	p->count = p->merged = 0;
+}
+
+static void
+lay_row(const ty_drawn_rows *drawn, uint32_t row, piece *p, ty_placeholder *placeholders)
+{
+	const ty_rows *rows = drawn->rows;
+	const uint32_t *member = rows->member + rows->first[row];
+	uint32_t k = rows->first[row + 1] - rows->first[row];
+
+	for (uint32_t i = 0; i < k; i++)
+	{
+		uint32_t label = drawn->label[member[i]];
+		ty_span span = rows->span[drawn->keeper[label]];
+
+		/* a kept building does not move, so the row ends at it and begins again */
+		if (span.row != row || span.first != i || placeholders[label].kept)
+		{
+			end_piece(p, placeholders);
+			continue;
+		}
+		p->label[p->count] = label;
+		p->mean[p->count++] = mean_of_members(drawn, member, span.first, span.last);
+		p->merged += placeholders[label].count > 1;
+		i = span.last;
+	}
+	end_piece(p, placeholders);
+}
+
+static uint32_t
+most_members(const ty_rows *rows)
+{
+	uint32_t most = 1;
+
+	for (size_t r = 0; r < rows->count; r++)
+		most = rows->first[r + 1] - rows->first[r] > most ? rows->first[r + 1] - rows->first[r] : most;
+	return most;
+}
+
+ty_status
+ty_rows_lay_out(const ty_environment *env, const ty_drawn_rows *drawn, ty_placeholder *placeholders)
+{
+	uint32_t most = most_members(drawn->rows);
+	piece p = {.label = ty_allocate_array(env, most, sizeof *p.label),
+			   .mean = ty_allocate_array(env, most, sizeof *p.mean),
+			   .along = ty_allocate_array(env, most, sizeof *p.along)};
+	ty_status status = p.label != NULL && p.mean != NULL && p.along != NULL ? TY_OK : TY_NO_MEMORY;
+
+	for (size_t row = 0; row < drawn->rows->count && status == TY_OK; row++)
+	{
+		lay_row(drawn, (uint32_t) row, &p, placeholders);
+		if (ty_interrupted_at(env, row))
+			status = TY_INTERRUPTED;
+	}
+	ty_release(env, p.label);
+	ty_release(env, p.mean);
+	ty_release(env, p.along);
+	return status;
+}

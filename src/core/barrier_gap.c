@@ -1,0 +1,232 @@
+/* barrier_gap.c - barriers on the ground: how near they come to a shape, whether one lies between two points. */
+#include "barrier.h"
+
+#include <math.h>
+
+static double
+length(ty_point a, ty_point b)
+{
+	double dx = b.x - a.x, dy = b.y - a.y;
+
+	return sqrt(dx * dx + dy * dy);
+}
+
+/* twice the area of a, b, c: above 0 where they turn left */
+static double
+turn(ty_point a, ty_point b, ty_point c)
+{
+	return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/* ---- gap ---- */
+
+typedef struct gap_search
+{
+	const ty_barrier_lines *lines;
+	const ty_point *corners;
+	int count;
+	ty_point low, high; /* of the corners */
+	ty_barrier_gap gap; /* so far */
+	ty_box box;			/* of the shape, larger by the distance so far */
+} gap_search;
+
+/* the point of the line from a to b that is nearest to p */
+static ty_point
+nearest_on_line(ty_point a, ty_point b, ty_point p)
+{
+	double dx = b.x - a.x, dy = b.y - a.y, squared = dx * dx + dy * dy;
+	double share = squared > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / squared : 0;
+
+	if (share <= 0)
+		return a;
+	if (share >= 1)
+		return b;
+	return (ty_point){a.x + share * dx, a.y + share * dy};
+}
+
+static void
+note_gap(gap_search *search, ty_point shape, ty_point line)
+{
+	double distance = length(shape, line);
+
+	if (distance < search->gap.distance)
+		search->gap = (ty_barrier_gap){distance, shape, line};
+}
+
+/* whether two lines cross or touch */
+static bool
+lines_meet(ty_point a, ty_point b, ty_point c, ty_point d)
+{
+	double at_c = turn(a, b, c), at_d = turn(a, b, d), at_a = turn(c, d, a), at_b = turn(c, d, b);
+
+	return ((at_c > 0) != (at_d > 0) || at_c == 0) && ((at_a > 0) != (at_b > 0) || at_a == 0) &&
+		   !(at_c == 0 && at_d == 0);
+}
+
+static bool
+shape_holds(const gap_search *search, ty_point p)
+{
+	bool left = false, right = false;
+
+	if (search->count < 3)
+		return false;
+	for (int i = 0; i < search->count; i++)
+	{
+		double side = turn(search->corners[i], search->corners[(i + 1) % search->count], p);
+
+		left |= side > 0;
+		right |= side < 0;
+	}
+	return !(left && right);
+}
+
+/* the gap to the line from a to b */
+static void
+look_at_line(gap_search *search, ty_point a, ty_point b)
+{
+	int sides = search->count < 3 ? 1 : search->count;
+
+	if (shape_holds(search, a))
+		search->gap.distance = 0;
+	for (int i = 0; i < sides && search->gap.distance > 0; i++)
+	{
+		ty_point c = search->corners[i], d = search->corners[(i + 1) % search->count];
+
+		if (lines_meet(a, b, c, d))
+		{
+			search->gap.distance = 0;
+			return;
+		}
+		note_gap(search, c, nearest_on_line(a, b, c));
+		note_gap(search, d, nearest_on_line(a, b, d));
+		note_gap(search, nearest_on_line(c, d, a), a);
+		note_gap(search, nearest_on_line(c, d, b), b);
+	}
+}
+
+/* what may be nearer than what was found so far */
+static void
+fit_search_box(gap_search *search)
+{
+	const ty_point origin = search->lines->origin;
+	double limit = search->gap.distance;
+
+	search->box = ty_box_of(search->low.x - limit - origin.x, search->low.y - limit - origin.y,
+							search->high.x + limit - origin.x, search->high.y + limit - origin.y);
+}
+
+static bool
+may_be_nearer(const void *context, const ty_box *box)
+{
+	return ty_box_meets(&((const gap_search *) context)->box, box);
+}
+
+static bool
+look_at_run(void *context, size_t thing)
+{
+	gap_search *search = context;
+	const ty_barrier_run *run = &search->lines->runs[thing];
+	double before = search->gap.distance;
+	ty_point last = ty_run_point(run, 0);
+
+	for (uint32_t i = 1; i < run->points && search->gap.distance > 0; i++)
+	{
+		ty_point next = ty_run_point(run, i);
+		double limit = search->gap.distance;
+
+		if (fmax(last.x, next.x) >= search->low.x - limit && fmin(last.x, next.x) <= search->high.x + limit &&
+			fmax(last.y, next.y) >= search->low.y - limit && fmin(last.y, next.y) <= search->high.y + limit)
+			look_at_line(search, last, next);
+		last = next;
+	}
+	if (search->gap.distance < before)
+		fit_search_box(search);
+	return search->gap.distance > 0;
+}
+
+ty_barrier_gap
+ty_barrier_lines_gap(const ty_barrier_lines *lines, const ty_point *corners, int count, double limit)
+{
+	gap_search search = {.lines = lines,
+						 .corners = corners,
+						 .count = count,
+						 .low = corners[0],
+						 .high = corners[0],
+						 .gap.distance = limit};
+
+	for (int i = 1; i < count; i++)
+	{
+		search.low = (ty_point){fmin(search.low.x, corners[i].x), fmin(search.low.y, corners[i].y)};
+		search.high = (ty_point){fmax(search.high.x, corners[i].x), fmax(search.high.y, corners[i].y)};
+	}
+	fit_search_box(&search);
+	ty_boxes_search(&lines->boxes, may_be_nearer, look_at_run, &search);
+	return search.gap;
+}
+
+/* ---- crossing ---- */
+
+typedef struct path
+{
+	const ty_barrier_lines *lines;
+	ty_point a, b;
+	ty_box box;
+} path;
+
+static bool
+path_may_meet(const void *context, const ty_box *box)
+{
+	return ty_box_meets(&((const path *) context)->box, box);
+}
+
+/* where a, b count as moved: see barrier.h */
+static bool
+is_left_of_path(const path *p, ty_point end)
+{
+	double side = turn(p->a, p->b, end);
+
+	if (side != 0)
+		return side > 0;
+	return p->b.y != p->a.y ? p->b.y > p->a.y : p->b.x < p->a.x;
+}
+
+static bool
+is_left_of_line(ty_point a, ty_point b, ty_point moved)
+{
+	double side = turn(a, b, moved);
+
+	if (side != 0)
+		return side > 0;
+	return b.y != a.y ? b.y < a.y : b.x > a.x;
+}
+
+static bool
+path_passes(void *context, size_t thing)
+{
+	const path *p = context;
+	const ty_barrier_run *run = &p->lines->runs[thing];
+	ty_point last = ty_run_point(run, 0);
+
+	for (uint32_t i = 1; i < run->points; i++)
+	{
+		ty_point next = ty_run_point(run, i);
+
+		if (is_left_of_path(p, last) != is_left_of_path(p, next) &&
+			is_left_of_line(last, next, p->a) != is_left_of_line(last, next, p->b))
+			return false;
+		last = next;
+	}
+	return true;
+}
+
+bool
+ty_barrier_lines_cross(const ty_barrier_lines *lines, ty_point a, ty_point b)
+{
+	path p = {.lines = lines, .a = a, .b = b};
+
+	if (a.x == b.x && a.y == b.y)
+		return false;
+	p.box = ty_box_of(fmin(a.x, b.x) - lines->origin.x, fmin(a.y, b.y) - lines->origin.y,
+					  fmax(a.x, b.x) - lines->origin.x, fmax(a.y, b.y) - lines->origin.y);
+	return !ty_boxes_search(&lines->boxes, path_may_meet, path_passes, &p);
+}

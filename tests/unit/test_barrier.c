@@ -1,0 +1,806 @@
+/*
+ * test_barrier.c - the fear: a barrier is crossed, by an edge that only touches it, through the joint of two lines, at
+ * the end of the index or of the grid, by the rounding of a merged place; or one that is far away costs or bars.
+ */
+#include "barrier.h"
+#include "check.h"
+#include "compare.h"
+#include "counting.h"
+#include "sets.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define MOST_POINTS 4000
+#define LINE_MOST 40
+#define SIDE (INT64_C(1) << TY_GRID_BITS)
+
+/* ---- the reference: exact, slow, and with real moves in place of infinitesimal ones ---- */
+
+typedef __int128 wide;
+
+typedef struct wide_point
+{
+	wide x, y;
+} wide_point;
+
+static int
+sign_of_turn(wide_point a, wide_point b, wide_point c)
+{
+	wide t = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+
+	return (t > 0) - (t < 0);
+}
+
+/* coordinates below 40: a move by (1/1000, 1/1000000) passes nothing that an infinitesimal one would not */
+static wide_point
+scaled(ty_position p, bool moved)
+{
+	return (wide_point){(wide) p.x * 1000000 + (moved ? 1000 : 0), (wide) p.y * 1000000 + (moved ? 1 : 0)};
+}
+
+/* proper crossing; *touch is set where the two meet without one, which must not happen */
+static bool
+cross_properly(ty_position a, ty_position b, ty_position c, ty_position d, bool *touch)
+{
+	wide_point p = scaled(a, true), q = scaled(b, true), u = scaled(c, false), v = scaled(d, false);
+	int u_side = sign_of_turn(p, q, u), v_side = sign_of_turn(p, q, v);
+	int p_side = sign_of_turn(u, v, p), q_side = sign_of_turn(u, v, q);
+
+	*touch = u_side * v_side * p_side * q_side == 0;
+	return u_side * v_side < 0 && p_side * q_side < 0;
+}
+
+/* the grid whose point (0, 0) is at (x, y) */
+static ty_grid
+grid_of(double cell, double x, double y)
+{
+	return (ty_grid){cell, x / cell, y / cell};
+}
+
+/* ---- one segment ---- */
+
+static void
+fit_points(const ty_point *points, uint32_t n, const ty_position *box, size_t box_count, ty_barrier_lines *lines,
+		   ty_barriers *barriers)
+{
+	ty_grid grid = grid_of(1, 0, 0);
+
+	ty_barrier_lines_begin(lines, &ty_plain_environment);
+	CHECK(ty_barrier_lines_add(lines, points, sizeof *points, n) == TY_OK, "add");
+	CHECK(ty_barrier_lines_end(lines) == TY_OK, "end");
+	CHECK(ty_barriers_fit(&ty_plain_environment, lines, &grid, box, box_count, barriers) == TY_OK, "fit");
+}
+
+static void
+free_both(ty_barrier_lines *lines, ty_barriers *barriers)
+{
+	ty_barriers_free(barriers);
+	ty_barrier_lines_free(lines);
+}
+
+/* every edge against every segment of a lattice: touching, along it, through its ends, on its end */
+static void
+every_case_on_a_small_lattice(void)
+{
+	enum
+	{
+		N = 4
+	};
+	const ty_position corners[2] = {{0, 0}, {N - 1, N - 1}};
+	size_t crossed = 0;
+
+	for (int s = 0; s < N * N * N * N; s++)
+	{
+		ty_position c = {s % N, s / N % N}, d = {s / (N * N) % N, s / (N * N * N)};
+		ty_point ends[2] = {{c.x, c.y}, {d.x, d.y}};
+		ty_barrier_lines lines;
+		ty_barriers barriers;
+
+		fit_points(ends, 2, corners, 2, &lines, &barriers);
+		for (int e = 0; e < N * N * N * N; e++)
+		{
+			ty_position a = {e % N, e / N % N}, b = {e / (N * N) % N, e / (N * N * N)};
+			bool touch, expected = cross_properly(a, b, c, d, &touch);
+			bool same = (a.x == b.x && a.y == b.y) || (c.x == d.x && c.y == d.y);
+
+			CHECK(same || !touch, "touching after the move: %d", e);
+			CHECK(ty_barriers_cross(&barriers, a, b) == (expected && !same),
+				  "(%d %d, %d %d) across (%d %d, %d %d), expected %d", a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y,
+				  expected);
+			CHECK(ty_barriers_cross(&barriers, b, a) == ty_barriers_cross(&barriers, a, b), "not the same way back");
+			crossed += expected;
+		}
+		free_both(&lines, &barriers);
+	}
+	CHECK(crossed > 5000, "only %zu crossings", crossed);
+}
+
+/* closed lines part what is inside from what is outside: an edge crosses them an odd number of times, or an even one */
+static void
+nothing_leaks_through_joints(void)
+{
+	random_state random = random_seed(1);
+
+	for (int round = 0; round < 300; round++)
+	{
+		ty_point ring[LINE_MOST + 1];
+		ty_position corners[2] = {{0, 0}, {12, 12}};
+		uint32_t n = (uint32_t) random_between(&random, 3, LINE_MOST);
+		ty_barrier_lines lines[LINE_MOST];
+		ty_barriers barriers[LINE_MOST];
+
+		for (uint32_t i = 0; i < n; i++)
+			ring[i] = (ty_point){(double) random_between(&random, 0, 12), (double) random_between(&random, 0, 12)};
+		ring[n] = ring[0];
+		for (uint32_t i = 0; i < n; i++)
+			fit_points(ring + i, 2, corners, 2, &lines[i], &barriers[i]);
+		for (int t = 0; t < 100; t++)
+		{
+			ty_position p[3];
+			int crossings = 0;
+
+			for (int i = 0; i < 3; i++)
+				p[i] =
+					(ty_position){(int32_t) random_between(&random, 0, 12), (int32_t) random_between(&random, 0, 12)};
+			for (uint32_t i = 0; i < n; i++)
+				for (int k = 0; k < 3; k++)
+					crossings += ty_barriers_cross(&barriers[i], p[k], p[(k + 1) % 3]);
+			CHECK(crossings % 2 == 0, "%d crossings on the way around (%d %d, %d %d, %d %d)", crossings, p[0].x, p[0].y,
+				  p[1].x, p[1].y, p[2].x, p[2].y);
+		}
+		for (uint32_t i = 0; i < n; i++)
+			free_both(&lines[i], &barriers[i]);
+	}
+}
+
+/* ---- many segments ---- */
+
+typedef struct world
+{
+	ty_point points[MOST_POINTS];
+	uint32_t first[MOST_POINTS], count[MOST_POINTS];
+	size_t lines, used;
+} world;
+
+static world all;
+
+static ty_point
+somewhere(random_state *random, double side)
+{
+	return (ty_point){floor(random_unit(random) * side), floor(random_unit(random) * side)};
+}
+
+/* lines of random length and step: streets, long straight ones, crowds */
+static void
+make_lines(random_state *random, size_t points, double side)
+{
+	all.lines = all.used = 0;
+	while (all.used + LINE_MOST < points)
+	{
+		uint32_t n = (uint32_t) random_between(random, 1, LINE_MOST);
+		double step = side * pow(2, -(double) random_between(random, 0, 12));
+		ty_point at = somewhere(random, side);
+
+		all.first[all.lines] = (uint32_t) all.used;
+		all.count[all.lines++] = n;
+		for (uint32_t i = 0; i < n; i++)
+		{
+			all.points[all.used++] = at;
+			at.x = fmin(fmax(floor(at.x + (random_unit(random) - 0.5) * step), 0), side);
+			at.y = fmin(fmax(floor(at.y + (random_unit(random) - 0.5) * step), 0), side);
+		}
+	}
+}
+
+static void
+gather(const ty_environment *env, ty_barrier_lines *lines)
+{
+	ty_barrier_lines_begin(lines, env);
+	for (size_t l = 0; l < all.lines; l++)
+		CHECK(ty_barrier_lines_add(lines, all.points + all.first[l], sizeof(ty_point), all.count[l]) == TY_OK,
+			  "line %zu", l);
+	CHECK(ty_barrier_lines_end(lines) == TY_OK, "end");
+}
+
+/* large coordinates leave no room for a real move: what lies on a line is settled by the rule */
+static int
+settled(int sign, int64_t dx, int64_t dy, int factor)
+{
+	if (sign != 0)
+		return sign;
+	return factor * (dy != 0 ? (dy < 0 ? 1 : -1) : (dx > 0 ? 1 : -1));
+}
+
+static bool
+reference_cross(ty_position a, ty_position b, ty_point c, ty_point d)
+{
+	wide_point p = {a.x, a.y}, q = {b.x, b.y};
+	wide_point u = {(wide) c.x, (wide) c.y}, v = {(wide) d.x, (wide) d.y};
+	int64_t dx = (int64_t) (v.x - u.x), dy = (int64_t) (v.y - u.y);
+
+	if ((dx == 0 && dy == 0) || (a.x == b.x && a.y == b.y))
+		return false;
+	return settled(sign_of_turn(p, q, u), (int64_t) b.x - a.x, (int64_t) b.y - a.y, -1) !=
+			   settled(sign_of_turn(p, q, v), (int64_t) b.x - a.x, (int64_t) b.y - a.y, -1) &&
+		   settled(sign_of_turn(u, v, p), dx, dy, 1) != settled(sign_of_turn(u, v, q), dx, dy, 1);
+}
+
+static bool
+reference_cross_any(ty_position a, ty_position b)
+{
+	for (size_t l = 0; l < all.lines; l++)
+		for (uint32_t i = 1; i < all.count[l]; i++)
+			if (reference_cross(a, b, all.points[all.first[l] + i - 1], all.points[all.first[l] + i]))
+				return true;
+	return false;
+}
+
+static int32_t
+on_side(double v, double side)
+{
+	return (int32_t) fmin(fmax(v, 0), side);
+}
+
+static void
+as_if_every_segment_were_tried(void)
+{
+	random_state random = random_seed(2);
+	const size_t sizes[] = {41, 60, 200, 1000, MOST_POINTS};
+	const double sides[] = {30, 1000, (double) (1 << 20), (double) SIDE};
+	size_t crossed = 0, asked = 0;
+
+	for (size_t k = 0; k < 20; k++)
+	{
+		double side = sides[k % 4];
+		ty_position corners[2] = {{0, 0}, {(int32_t) side, (int32_t) side}};
+		ty_grid grid = grid_of(1, 0, 0);
+		ty_barrier_lines lines;
+		ty_barriers barriers;
+
+		make_lines(&random, sizes[k / 4], side);
+		gather(&ty_plain_environment, &lines);
+		CHECK(ty_barriers_fit(&ty_plain_environment, &lines, &grid, corners, 2, &barriers) == TY_OK, "fit");
+		for (int t = 0; t < 3000; t++)
+		{
+			double step = side * pow(2, -(double) random_between(&random, 0, 14));
+			ty_point from = somewhere(&random, side);
+			ty_position a = {(int32_t) from.x, (int32_t) from.y}, b;
+			bool expected;
+
+			if (t % 3 == 0) /* on a barrier's end */
+				a = (ty_position){(int32_t) all.points[t % all.used].x, (int32_t) all.points[t % all.used].y};
+			b = (ty_position){on_side(a.x + (random_unit(&random) - 0.5) * step, side),
+							  on_side(a.y + (random_unit(&random) - 0.5) * step, side)};
+			expected = reference_cross_any(a, b);
+			CHECK(ty_barriers_cross(&barriers, a, b) == expected, "set %zu: (%d %d, %d %d), expected %d", k, a.x, a.y,
+				  b.x, b.y, expected);
+			crossed += expected;
+			asked++;
+		}
+		free_both(&lines, &barriers);
+	}
+	CHECK(crossed > asked / 10 && crossed < asked - asked / 10, "%zu of %zu crossed", crossed, asked);
+}
+
+/* Lines that go far beyond the grid: what crosses clearly still does, and nothing else. */
+static void
+lines_beyond_the_grid(void)
+{
+	random_state random = random_seed(3);
+	const double reach[] = {30, 100, 1e6, 1e12, 1e30, 1e290};
+	size_t crossed = 0;
+
+	for (int round = 0; round < 3000; round++)
+	{
+		double r = reach[round % 6] * (double) SIDE;
+		ty_point m = somewhere(&random, (double) SIDE), end[2];
+		double dx = random_unit(&random) - 0.5, dy = random_unit(&random) - 0.5;
+		ty_position corners[2] = {{0, 0}, {(int32_t) SIDE, (int32_t) SIDE}}, a, b;
+		ty_barrier_lines lines;
+		ty_barriers barriers;
+		ty_point p = somewhere(&random, (double) SIDE), q = somewhere(&random, (double) SIDE);
+		double at_p = (p.y - m.y) * dx - (p.x - m.x) * dy, at_q = (q.y - m.y) * dx - (q.x - m.x) * dy;
+
+		end[0] = (ty_point){m.x - r * dx, m.y - r * dy};
+		end[1] = (ty_point){m.x + r * dx, m.y + r * dy};
+		a = (ty_position){(int32_t) p.x, (int32_t) p.y};
+		b = (ty_position){(int32_t) q.x, (int32_t) q.y};
+		fit_points(end, 2, corners, 2, &lines, &barriers);
+		/* ends as far away as 1e30 do not tell where the line passes */
+		if (round % 6 < 4 && fabs(at_p) > 1e-3 * (double) SIDE * 0.5 && fabs(at_q) > 1e-3 * (double) SIDE * 0.5 &&
+			fabs(dx) + fabs(dy) > 0.1)
+		{
+			CHECK(barriers.count == 1, "%zu segments", barriers.count);
+			CHECK(ty_barriers_cross(&barriers, a, b) == ((at_p > 0) != (at_q > 0)), "round %d", round);
+			crossed += (at_p > 0) != (at_q > 0);
+		}
+		else
+			ty_barriers_cross(&barriers, a, b);
+		free_both(&lines, &barriers);
+	}
+	CHECK(crossed > 200, "only %zu crossings", crossed);
+}
+
+/* a group's box keeps off what is elsewhere; what is kept answers as all would */
+static void
+the_box_of_the_group(void)
+{
+	random_state random = random_seed(4);
+	ty_grid grid = grid_of(0.25, 500000, 5000000);
+	ty_barrier_lines lines;
+	ty_barriers barriers;
+	ty_position box[2] = {{1000, 2000}, {1400, 2100}};
+
+	make_lines(&random, MOST_POINTS, 4000);
+	for (size_t i = 0; i < all.used; i++)
+		all.points[i] = (ty_point){500000 + all.points[i].x / 4, 5000000 + all.points[i].y / 4};
+	gather(&ty_plain_environment, &lines);
+	NEED(ty_barriers_fit(&ty_plain_environment, &lines, &grid, box, 2, &barriers) == TY_OK, "fit");
+	CHECK(barriers.count > 0 && barriers.count < lines.segments / 4, "%zu of %zu segments", barriers.count,
+		  lines.segments);
+	for (size_t i = 0; i < all.used; i++)
+		all.points[i] = (ty_point){(all.points[i].x - 500000) * 4, (all.points[i].y - 5000000) * 4};
+	for (int t = 0; t < 3000; t++)
+	{
+		ty_position a = {(int32_t) random_between(&random, 1000, 1400), (int32_t) random_between(&random, 2000, 2100)};
+		ty_position b = {(int32_t) random_between(&random, 1000, 1400), (int32_t) random_between(&random, 2000, 2100)};
+
+		CHECK(ty_barriers_cross(&barriers, a, b) == reference_cross_any(a, b), "(%d %d, %d %d)", a.x, a.y, b.x, b.y);
+	}
+	free_both(&lines, &barriers);
+	box[0] = box[1] = (ty_position){1 << 29, 1 << 29};
+	gather(&ty_plain_environment, &lines);
+	NEED(ty_barriers_fit(&ty_plain_environment, &lines, &grid, box, 2, &barriers) == TY_OK, "fit");
+	CHECK(barriers.count == 0, "%zu segments far away", barriers.count);
+	CHECK(!ty_barriers_cross(&barriers, box[0], (ty_position){0, 0}), "crossed nothing");
+	free_both(&lines, &barriers);
+}
+
+/* ---- what is handed over ---- */
+
+static void
+the_order_of_lines_does_not_matter(void)
+{
+	random_state random = random_seed(5);
+	ty_grid grid = grid_of(1, 0, 0);
+	ty_position corners[2] = {{0, 0}, {1 << 20, 1 << 20}};
+	ty_barrier_lines forth, back;
+	ty_barriers a, b;
+	size_t different = 0;
+
+	make_lines(&random, MOST_POINTS, 1 << 20);
+	gather(&ty_plain_environment, &forth);
+	ty_barrier_lines_begin(&back, &ty_plain_environment);
+	for (size_t l = all.lines; l-- > 0;)
+		CHECK(ty_barrier_lines_add(&back, all.points + all.first[l], sizeof(ty_point), all.count[l]) == TY_OK, "add");
+	CHECK(ty_barrier_lines_end(&back) == TY_OK, "end");
+	CHECK(ty_barriers_fit(&ty_plain_environment, &forth, &grid, corners, 2, &a) == TY_OK, "fit");
+	CHECK(ty_barriers_fit(&ty_plain_environment, &back, &grid, corners, 2, &b) == TY_OK, "fit");
+	CHECK(a.count == b.count, "%zu and %zu segments", a.count, b.count);
+	for (int t = 0; t < 10000; t++)
+	{
+		ty_position p = {(int32_t) random_between(&random, 0, 1 << 20), (int32_t) random_between(&random, 0, 1 << 20)};
+		ty_position q = {(int32_t) random_between(&random, 0, 1 << 20), (int32_t) random_between(&random, 0, 1 << 20)};
+
+		different += ty_barriers_cross(&a, p, q) != ty_barriers_cross(&b, p, q);
+	}
+	CHECK(different == 0, "%zu answers differ", different);
+	free_both(&forth, &a);
+	free_both(&back, &b);
+}
+
+static void
+strides_and_alignment(void)
+{
+	unsigned char bytes[1 + 3 * 32];
+	const double river[3][4] = {{0, 5, NAN, 1}, {4, 5, INFINITY, 2}, {10, 6, 3, 3}};
+	ty_grid grid = grid_of(1, 0, 0);
+	ty_position corners[2] = {{0, 0}, {10, 10}};
+	ty_barrier_lines lines;
+	ty_barriers barriers;
+
+	memcpy(bytes + 1, river, sizeof river);
+	ty_barrier_lines_begin(&lines, &ty_plain_environment);
+	CHECK(ty_barrier_lines_add(&lines, bytes + 1, 32, 3) == TY_OK, "Z and M may be anything");
+	CHECK(ty_barrier_lines_end(&lines) == TY_OK, "end");
+	CHECK(ty_barriers_fit(&ty_plain_environment, &lines, &grid, corners, 2, &barriers) == TY_OK, "fit");
+	CHECK(ty_barriers_cross(&barriers, (ty_position){2, 4}, (ty_position){2, 6}), "not crossed at 2");
+	CHECK(ty_barriers_cross(&barriers, (ty_position){8, 4}, (ty_position){8, 7}), "not crossed at 8");
+	CHECK(!ty_barriers_cross(&barriers, (ty_position){2, 4}, (ty_position){8, 4}), "crossed below");
+	free_both(&lines, &barriers);
+}
+
+static void
+not_finite_and_nothing(void)
+{
+	const ty_point wrong[3] = {{0, 0}, {1, NAN}, {2, 2}}, far[2] = {{0, 0}, {-INFINITY, 2}};
+	ty_position box = {0, 0};
+	ty_grid grid = grid_of(1, 0, 0);
+	ty_barrier_lines lines;
+	ty_barriers barriers;
+
+	ty_barrier_lines_begin(&lines, &ty_plain_environment);
+	CHECK(ty_barrier_lines_add(&lines, wrong, sizeof *wrong, 3) == TY_NOT_FINITE, "NaN");
+	CHECK(ty_barrier_lines_add(&lines, far, sizeof *far, 2) == TY_NOT_FINITE, "-Infinity");
+	CHECK(ty_barrier_lines_add(&lines, wrong, sizeof *wrong, 1) == TY_OK, "one point");
+	CHECK(ty_barrier_lines_add(&lines, wrong, sizeof *wrong, 0) == TY_OK, "no point");
+	CHECK(ty_barrier_lines_end(&lines) == TY_OK && lines.segments == 0, "%zu segments", lines.segments);
+	CHECK(ty_barriers_fit(&ty_plain_environment, &lines, &grid, &box, 1, &barriers) == TY_OK, "fit");
+	CHECK(!ty_barriers_cross(&barriers, box, (ty_position){5, 5}), "crossed");
+	CHECK(ty_barrier_lines_gap(&lines, wrong, 1, 7).distance == 7, "a gap to nothing");
+	free_both(&lines, &barriers);
+}
+
+/* ---- gaps ---- */
+
+static double
+point_to_line(ty_point p, ty_point a, ty_point b)
+{
+	double dx = b.x - a.x, dy = b.y - a.y, l = dx * dx + dy * dy;
+	double t = l > 0 ? fmin(fmax(((p.x - a.x) * dx + (p.y - a.y) * dy) / l, 0), 1) : 0;
+
+	return hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+}
+
+static double
+side_of(ty_point a, ty_point b, ty_point c)
+{
+	return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+static double
+reference_gap(const ty_point *corner, int count, ty_point a, ty_point b)
+{
+	double gap = INFINITY;
+	bool inside = count > 2;
+
+	for (int i = 0; i < count; i++)
+	{
+		ty_point c = corner[i], d = corner[(i + 1) % count];
+
+		gap = fmin(gap, fmin(fmin(point_to_line(a, c, d), point_to_line(b, c, d)), point_to_line(c, a, b)));
+		if (side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0)
+			gap = 0;
+		inside = inside && side_of(c, d, a) > 0;
+	}
+	return inside ? 0 : gap;
+}
+
+static void
+gaps_as_if_every_segment_were_measured(void)
+{
+	random_state random = random_seed(6);
+	ty_barrier_lines lines;
+	size_t zero = 0, beyond = 0;
+
+	make_lines(&random, MOST_POINTS, 10000);
+	gather(&ty_plain_environment, &lines);
+	for (int t = 0; t < 2000; t++)
+	{
+		ty_point m = somewhere(&random, 10000), corner[4];
+		double ux = random_unit(&random), uy = sqrt(1 - ux * ux), w = 60 * random_unit(&random),
+			   h = 30 * random_unit(&random);
+		int count = t % 4 == 3 ? 4 : t % 4 == 2 ? 3 : t % 4 + 1;
+		double limit = 10 + 150 * random_unit(&random), expected = limit;
+		ty_barrier_gap gap;
+
+		corner[0] = (ty_point){m.x - ux * w + uy * h, m.y - uy * w - ux * h};
+		corner[1] = (ty_point){m.x + ux * w + uy * h, m.y + uy * w - ux * h};
+		corner[2] = (ty_point){m.x + ux * w - uy * h, m.y + uy * w + ux * h};
+		corner[3] = (ty_point){m.x - ux * w - uy * h, m.y - uy * w + ux * h};
+		for (size_t l = 0; l < all.lines; l++)
+			for (uint32_t i = 1; i < all.count[l]; i++)
+				expected = fmin(expected, reference_gap(corner, count, all.points[all.first[l] + i - 1],
+														all.points[all.first[l] + i]));
+		gap = ty_barrier_lines_gap(&lines, corner, count, limit);
+		CHECK(fabs(gap.distance - expected) <= 1e-9 * 10000, "%d corners: %.17g, expected %.17g", count, gap.distance,
+			  expected);
+		if (gap.distance > 0 && gap.distance < limit)
+		{
+			CHECK(fabs(hypot(gap.shape.x - gap.line.x, gap.shape.y - gap.line.y) - gap.distance) < 1e-9,
+				  "points apart");
+		}
+		zero += gap.distance == 0;
+		beyond += gap.distance == limit;
+	}
+	CHECK(zero > 100 && beyond > 100 && zero + beyond < 1900, "%zu meet, %zu are beyond", zero, beyond);
+	ty_barrier_lines_free(&lines);
+}
+
+static void
+on_the_ground_as_on_the_grid(void)
+{
+	random_state random = random_seed(7);
+	ty_position corners[2] = {{0, 0}, {10000, 10000}};
+	ty_grid grid = grid_of(1, 0, 0);
+	ty_barrier_lines lines;
+	ty_barriers barriers;
+
+	make_lines(&random, MOST_POINTS, 10000);
+	gather(&ty_plain_environment, &lines);
+	NEED(ty_barriers_fit(&ty_plain_environment, &lines, &grid, corners, 2, &barriers) == TY_OK, "fit");
+	for (int t = 0; t < 5000; t++)
+	{
+		ty_point p = t % 2 ? all.points[t % all.used] : somewhere(&random, 10000), q = somewhere(&random, 10000);
+		ty_position a = {(int32_t) p.x, (int32_t) p.y}, b;
+
+		if (t % 3)
+			q = (ty_point){fmin(p.x + t % 100, 10000), fmin(p.y + t % 77, 10000)};
+		b = (ty_position){(int32_t) q.x, (int32_t) q.y};
+		CHECK(ty_barrier_lines_cross(&lines, p, q) == ty_barriers_cross(&barriers, a, b), "(%d %d, %d %d)", a.x, a.y,
+			  b.x, b.y);
+	}
+	free_both(&lines, &barriers);
+}
+
+/* ---- cost ---- */
+
+static void
+memory_is_given_back(void)
+{
+	random_state random = random_seed(8);
+	counting counter;
+	ty_environment env = counting_environment(&counter);
+	ty_position corners[2] = {{0, 0}, {1000, 1000}};
+	ty_grid grid = grid_of(1, 0, 0);
+	ty_barrier_lines lines;
+	ty_barriers barriers;
+	size_t of_lines;
+
+	make_lines(&random, MOST_POINTS, 1000);
+	gather(&env, &lines);
+	of_lines = counter.used;
+	CHECK(of_lines < 16 * lines.segments, "%zu bytes for %zu segments", of_lines, lines.segments);
+	CHECK(ty_barriers_fit(&env, &lines, &grid, corners, 2, &barriers) == TY_OK, "fit");
+	CHECK(counter.used - of_lines < 32 * lines.segments, "%zu bytes for %zu segments", counter.used - of_lines,
+		  lines.segments);
+	free_both(&lines, &barriers);
+	CHECK(counter.used == 0, "%zu bytes left", counter.used);
+}
+
+/* ---- in the collapse ---- */
+
+/* a place at most a cell off the edge */
+static ty_position
+near_the_edge(random_state *random, ty_position a, ty_position b, double side)
+{
+	double share = random_unit(random);
+
+	return (ty_position){
+		on_side(floor(a.x + share * ((double) b.x - a.x)) + (double) random_between(random, 0, 1), side),
+		on_side(floor(a.y + share * ((double) b.y - a.y)) + (double) random_between(random, 0, 1), side)};
+}
+
+static void
+the_way_over_the_merged_place(void)
+{
+	random_state random = random_seed(10);
+	const double sides[] = {12, 40, 1000, (double) SIDE};
+	size_t only_the_way = 0;
+
+	for (size_t k = 0; k < 80; k++)
+	{
+		double side = sides[k % 4];
+		ty_position corners[2] = {{0, 0}, {(int32_t) side, (int32_t) side}};
+		ty_grid grid = grid_of(1, 0, 0);
+		ty_barrier_lines lines;
+		ty_barriers barriers;
+
+		make_lines(&random, k % 4 == 0 ? 45 : 100, side);
+		gather(&ty_plain_environment, &lines);
+		CHECK(ty_barriers_fit(&ty_plain_environment, &lines, &grid, corners, 2, &barriers) == TY_OK, "fit");
+		for (int t = 0; t < 1000; t++)
+		{
+			ty_point p = somewhere(&random, side), q = somewhere(&random, side);
+			ty_position a = {(int32_t) p.x, (int32_t) p.y}, b = {(int32_t) q.x, (int32_t) q.y}, m;
+			bool edge, way;
+
+			if (t % 2)
+				b = (ty_position){on_side(a.x + (double) random_between(&random, -5, 5), side),
+								  on_side(a.y + (double) random_between(&random, -5, 5), side)};
+			m = near_the_edge(&random, a, b, side);
+			edge = reference_cross_any(a, b);
+			way = reference_cross_any(a, m) || reference_cross_any(m, b);
+			if (a.x == b.x && a.y == b.y)
+				continue;
+			CHECK(ty_barriers_bar(&barriers, a, b, m) == (edge || way), "(%d %d, %d %d) over (%d %d): %d %d", a.x, a.y,
+				  b.x, b.y, m.x, m.y, edge, way);
+			CHECK(ty_barriers_bar(&barriers, b, a, m) == (edge || way), "not the same way back");
+			only_the_way += way && !edge;
+		}
+		free_both(&lines, &barriers);
+	}
+	CHECK(only_the_way > 100, "only %zu bars by rounding", only_the_way);
+}
+
+/* lines through and between the positions, dangling ends and closed rings among them */
+static void
+make_lines_among(random_state *random, const ty_position *position, size_t n)
+{
+	uint32_t lines = (uint32_t) random_between(random, 1, 6);
+
+	all.lines = all.used = 0;
+	for (uint32_t l = 0; l < lines; l++)
+	{
+		uint32_t points = (uint32_t) random_between(random, 2, 5);
+
+		all.first[all.lines] = (uint32_t) all.used;
+		all.count[all.lines++] = points;
+		for (uint32_t i = 0; i < points; i++)
+		{
+			const ty_position *p = &position[random_between(random, 0, (int64_t) n - 1)];
+			const ty_position *q = &position[random_between(random, 0, (int64_t) n - 1)];
+
+			all.points[all.used++] = random_between(random, 0, 2) == 0 ? (ty_point){p->x, p->y}
+																	   : (ty_point){floor(((double) p->x + q->x) / 2),
+																					floor(((double) p->y + q->y) / 2)};
+		}
+	}
+}
+
+static void
+merges_equal_the_reference(void)
+{
+	random_state random = random_seed(11);
+	ty_grid grid = grid_of(1, 0, 0);
+	const double s_us[] = {0, 0.5, 1};
+
+	for (small_kind kind = 0; kind < SMALL_KINDS; kind++)
+		for (int round = 0; round < 30; round++)
+		{
+			size_t n = (size_t) random_between(&random, 2, 20);
+			ty_position position[REFERENCE_MAX];
+			uint64_t keys[REFERENCE_MAX];
+			ty_stop stop = {(size_t) random_between(&random, 1, (int64_t) n), 0};
+			ty_barrier_lines lines;
+			ty_barriers barriers;
+			ty_influence influence = {.crosses = ty_barriers_bar, .barriers = &barriers};
+			const char *difference;
+
+			small_set(kind, &random, position, n);
+			sort_along_curve(position, keys, n);
+			make_lines_among(&random, position, n);
+			gather(&ty_plain_environment, &lines);
+			NEED(ty_barriers_fit(&ty_plain_environment, &lines, &grid, position, n, &barriers) == TY_OK, "fit");
+			if (round % 2)
+				stop.min_distance = ldexp(1.0, (int) random_between(&random, 0, 29));
+			difference = compare_with_reference(position, n, s_us[round % 3], &influence, stop, REFERENCE_MESH);
+			CHECK(difference == NULL, "%s, n %zu: %s", small_kind_name[kind], n, difference);
+			free_both(&lines, &barriers);
+		}
+}
+
+#define FLOCK 3000
+
+/* Every merge of a large group, as the specification says where it goes: no way of a member crosses a barrier. */
+static void
+no_member_is_carried_across(void)
+{
+	static ty_position position[FLOCK], place[FLOCK];
+	static uint64_t keys[FLOCK];
+	static int64_t sum_x[FLOCK], sum_y[FLOCK], size[FLOCK];
+	random_state random = random_seed(12);
+	ty_grid grid = grid_of(1, 0, 0);
+	ty_barrier_lines lines;
+	ty_barriers barriers;
+	ty_influence influence = {.crosses = ty_barriers_bar, .barriers = &barriers};
+	ty_sequence sequence;
+	double side = 20000;
+
+	for (size_t i = 0; i < FLOCK; i++)
+	{
+		ty_point p = somewhere(&random, side);
+
+		position[i] = (ty_position){(int32_t) p.x, (int32_t) p.y};
+	}
+	sort_along_curve(position, keys, FLOCK);
+	make_lines(&random, 1500, side);
+	gather(&ty_plain_environment, &lines);
+	NEED(ty_barriers_fit(&ty_plain_environment, &lines, &grid, position, FLOCK, &barriers) == TY_OK, "fit");
+	for (size_t i = 0; i < FLOCK; i++)
+	{
+		place[i] = position[i];
+		sum_x[i] = position[i].x;
+		sum_y[i] = position[i].y;
+		size[i] = 1;
+	}
+	NEED(ty_collapse(&ty_plain_environment, position, FLOCK, 0.5, &influence, (ty_stop){1, 0}, false, NULL, NULL,
+					 &sequence) == TY_OK,
+		 "collapse");
+	CHECK(sequence.count > FLOCK / 2 && sequence.count < FLOCK - 10, "%zu merges", sequence.count);
+	for (size_t i = 0; i < sequence.count; i++)
+	{
+		uint32_t a = sequence.kept[i], b = sequence.gone[i];
+		ty_position m;
+
+		sum_x[a] += sum_x[b];
+		sum_y[a] += sum_y[b];
+		size[a] += size[b];
+		m = (ty_position){(int32_t) ((2 * sum_x[a] + size[a]) / (2 * size[a])),
+						  (int32_t) ((2 * sum_y[a] + size[a]) / (2 * size[a]))};
+		CHECK(!reference_cross_any(place[a], m) && !reference_cross_any(place[b], m), "merge %zu crosses", i);
+		place[a] = m;
+	}
+	ty_sequence_free(&ty_plain_environment, &sequence);
+	free_both(&lines, &barriers);
+}
+
+static size_t allocations, failing_one;
+
+static void *
+fail_to_allocate(void *context, size_t size)
+{
+	(void) context;
+	return ++allocations == failing_one ? NULL : malloc(size);
+}
+
+static void *
+fail_to_reallocate(void *context, void *memory, size_t size)
+{
+	(void) context;
+	return ++allocations == failing_one ? NULL : realloc(memory, size);
+}
+
+static void
+release(void *context, void *memory)
+{
+	(void) context;
+	free(memory);
+}
+
+/* under the address sanitizer, which finds leaks */
+static void
+every_allocation_may_fail(void)
+{
+	random_state random = random_seed(9);
+	const ty_environment env = {fail_to_allocate, fail_to_reallocate, release, NULL, NULL, NULL};
+	ty_position corners[2] = {{0, 0}, {1000, 1000}};
+	ty_grid grid = grid_of(1, 0, 0);
+	size_t failed = 0;
+	bool all_went_well = false;
+
+	make_lines(&random, MOST_POINTS, 1000);
+	for (failing_one = 1; !all_went_well; failing_one++)
+	{
+		ty_barrier_lines lines;
+		ty_barriers barriers = {.env = &env};
+		ty_status status = TY_OK;
+
+		allocations = 0;
+		ty_barrier_lines_begin(&lines, &env);
+		for (size_t l = 0; l < all.lines && status == TY_OK; l++)
+			status = ty_barrier_lines_add(&lines, all.points + all.first[l], sizeof(ty_point), all.count[l]);
+		if (status == TY_OK)
+			status = ty_barrier_lines_end(&lines);
+		if (status == TY_OK)
+			status = ty_barriers_fit(&env, &lines, &grid, corners, 2, &barriers);
+		CHECK(status == TY_OK || status == TY_NO_MEMORY, "status %d", status);
+		all_went_well = status == TY_OK;
+		failed += status == TY_NO_MEMORY;
+		free_both(&lines, &barriers);
+	}
+	CHECK(failed > 10, "only %zu failures", failed);
+}
+
+int
+main(int argc, char **argv)
+{
+	check_begin(argc, argv);
+	RUN(every_case_on_a_small_lattice);
+	RUN(nothing_leaks_through_joints);
+	RUN(as_if_every_segment_were_tried);
+	RUN(lines_beyond_the_grid);
+	RUN(the_box_of_the_group);
+	RUN(the_order_of_lines_does_not_matter);
+	RUN(strides_and_alignment);
+	RUN(not_finite_and_nothing);
+	RUN(gaps_as_if_every_segment_were_measured);
+	RUN(on_the_ground_as_on_the_grid);
+	RUN(the_way_over_the_merged_place);
+	RUN(merges_equal_the_reference);
+	RUN(no_member_is_carried_across);
+	RUN(memory_is_given_back);
+	RUN(every_allocation_may_fail);
+	return check_end();
+}
