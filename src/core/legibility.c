@@ -20,7 +20,7 @@
 
 #define SLACK 0.01		  /* of the gap: what is aimed at beyond it, so that pushing comes to an end */
 #define ROUNDING_STEPS 16 /* units in the last place of coordinates and sides: what drawing may round away */
-#define ROUNDS 8		  /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
+#define ROUNDS 8 /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
 #define POOL_PER_SITE 32  /* numbers; a site in a town has 20 near it, of which 2 are in its way */
 #define NOT_CACHED UINT32_MAX
 
