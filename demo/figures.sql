@@ -1,4 +1,4 @@
--- figures.sql: the paper's Figures 8, 9 and 11 from the shipped settlement, and the picture of the README
+-- figures.sql: the paper's Figures 8, 9 and 11 from the shipped settlement, the picture of the README, and rows
 
 \pset format unaligned
 \pset tuples_only on
@@ -70,9 +70,24 @@ INSERT INTO demo.picture (name, caption) VALUES
 	('figure-8-hamlet', '41 buildings become 20, 13, 10 and 5 (paper, Figure 8)'),
 	('figure-9-hamlet-true-size', 'the same at true map size (paper, Figure 9)'),
 	('figure-11-statistics', 'large buildings among small ones: mean, median, sum (paper, Figure 11)'),
-	('settlement', 'the picture of the README');
+	('settlement', 'the picture of the README'),
+	('rows', 'rows of houses: what is found, and 1:75 000 without and with alignment => 4');
 
 \set file :out '/settlement.svg'
 SELECT typify_svg(demo.buildings(frame), (SELECT typify(geom, 75000, 0.5) FROM buildings), 75000,
 	demo.roads(75000, frame), magnify => 4, frame => frame)
 FROM (SELECT ST_MakeEnvelope(613240, 5487020, 614340, 5488270, 25832) AS frame) AS window_ \g :file
+
+\set file :out '/rows.svg'
+SELECT typify_svg_sheet(ARRAY[
+		typify_svg(demo.buildings(frame), NULL, 75000, rows => (
+				SELECT ST_Collect(axis) FROM (
+					SELECT ST_MakeLine(ST_Centroid(geom) ORDER BY (r).place) AS axis
+					FROM (SELECT geom, typify_rows(geom) OVER () AS r FROM buildings) AS found
+					WHERE r IS NOT NULL GROUP BY (r).number) AS axes),
+			title => 'rows', magnify => 5, frame => frame),
+		typify_svg(NULL, (SELECT typify(geom, 75000, 0) FROM buildings), 75000,
+			demo.roads(75000, frame), title => 'plain', magnify => 5, frame => frame),
+		typify_svg(NULL, (SELECT typify(geom, 75000, 0, typify_options(alignment => 4)) FROM buildings), 75000,
+			demo.roads(75000, frame), title => 'alignment => 4', magnify => 5, frame => frame)], 3)
+FROM (SELECT ST_MakeEnvelope(613240, 5487620, 613840, 5488270, 25832) AS frame) AS window_ \g :file

@@ -42,7 +42,7 @@ COMMENT ON COLUMN typify_options.area_statistic IS
 COMMENT ON COLUMN typify_options.shape IS
 'rectangle (default, paper: ratio and direction of the representative), square (of equal area), footprint (the representative''s own outline, of several parts the largest, scaled to the area about its centroid; width and length are those of its minimum-area rectangle, which is drawn where the outline is no valid polygon) or auto (kept buildings, see keep_area and importance, with their own outline, simplified by ST_SimplifyPreserveTopology where detours are shorter than 0.1 mm on the map, and their own area; all others as rectangles).';
 COMMENT ON COLUMN typify_options.min_area IS
-'A building smaller than this (a shed) adds nothing to count, position or mean; it is a member of the placeholder whose vertex is nearest to its centroid, of equally near ones the first. A group of such buildings alone is one row with geom NULL. A kept building is no shed. Square units of the SRID; 0, the default, is off.';
+'A building smaller than this (a shed) adds nothing to count, position or mean; it is a member of the placeholder whose centre is nearest to its centroid, of equally near ones the first. A group of such buildings alone is one row with geom NULL. A kept building is no shed. Square units of the SRID; 0, the default, is off.';
 COMMENT ON COLUMN typify_options.min_side IS 
 'Shortest side of a placeholder, mm on the map (usual: 0.35); 0 is none. A shorter side is enlarged to it; the long side is then at least min(1 / ratio, 1.5) times as long, and of a placeholder of several members the ratio is at least 1/3. Points and lines get this size too.';
 COMMENT ON COLUMN typify_options.max_area IS 
@@ -52,7 +52,7 @@ COMMENT ON COLUMN typify_options.keep_area IS
 COMMENT ON COLUMN typify_options.min_gap IS 
 'Smallest gap between placeholders, mm on the map (usual: 0.2); 0 is none, and then they may overlap. Those that are nearer are shrunk to their true size, moved by at most the gap or half their longer side, shrunk to min_side (without min_side no further), and at last merged, so that there may be fewer than the count.';
 COMMENT ON COLUMN typify_options.alignment IS
-'How much longer edges count that leave a row of buildings. Not supported yet, except 0 (off).';
+'Keeps rows of buildings (see typify_rows): an edge that leaves a row counts 1 + alignment times as long as one inside it, merges go evenly along a row, and what is left of it is laid out evenly on its line. At least 0; default 0, which is off; 4 keeps both sides of a street apart up to a fourth of the buildings. Rows are found among the buildings of a group.';
 COMMENT ON COLUMN typify_options.barriers IS
 'Lines that nothing is merged across, even where the count cannot be reached then: the roads, rivers, railways that are drawn at the target scale. Lines and polygons (whose rings count), multi and collections of them (points in a collection are passed over), with the SRID of the buildings; EMPTY is none. What lies exactly on a line belongs to its right side, of a horizontal one to the upper side. Pass large ones as a scalar sub-select: they are then read, kept and indexed once for all groups.';
 COMMENT ON COLUMN typify_options.barrier_width IS

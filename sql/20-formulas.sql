@@ -8,6 +8,17 @@ LANGUAGE C IMMUTABLE PARALLEL SAFE;
 COMMENT ON FUNCTION typify_count(bigint, double precision, typify_options) IS
 'How many of n buildings remain at a scale (its denominator): floor(n * (m25 / m_r)^(x/2)), at least 1 and at most n, by the radical law (Toepfer and Pillewizer 1966; paper, section on positioning), by the black-white rule (buildings are taken to have an area) or as options.count says. NULL for a NULL n or scale. Errors: 22023 for n below 0, a scale below source_scale, or when min_distance alone says when to stop; 0A000 for options that are not supported yet.';
 
+CREATE FUNCTION typify_scale_below(
+	n bigint,
+	count bigint,
+	options typify_options DEFAULT NULL)
+RETURNS double precision
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE;
+
+COMMENT ON FUNCTION typify_scale_below(bigint, bigint, typify_options) IS
+'The scale from which on fewer than count of n buildings remain: the smallest number at which typify_count is below count, exactly; at the one just before it is not. At least source_scale; Infinity where count is 1 or less. NULL for a NULL n or count. Errors: 22023 for a negative n or count, and for options that make the count depend on more than the scale: count, min_distance, the black-white rule.';
+
 CREATE FUNCTION typify_area_factor(scale double precision, options typify_options DEFAULT NULL)
 RETURNS double precision
 AS 'MODULE_PATHNAME'
@@ -56,3 +67,12 @@ BEGIN ATOMIC
 END;
 COMMENT ON FUNCTION typify_metres_per_unit(integer) IS
 'Metres in a unit of a reference system: 0.3048 for feet, 1 where it is not known, NaN for degrees';
+
+CREATE FUNCTION typify_zoom_scale(zoom double precision, latitude double precision, tile_size integer DEFAULT 512)
+RETURNS double precision
+LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT 2 * pi() * 6378137 / tile_size / 0.00028 * cos(radians(latitude)) / power(2::double precision, zoom);
+END;
+COMMENT ON FUNCTION typify_zoom_scale(double precision, double precision, integer) IS
+'The denominator of the scale at which a web map (Web Mercator) shows a latitude (degrees) at a zoom, on a screen of 0.28 mm a pixel as OGC takes it. tile_size: pixels that a side of a tile takes on the screen: 512 in MapLibre, Mapbox GL and OpenLayers, 256 for raster tiles. typify_zoom_scale(11, 49.5) is 88 646.';

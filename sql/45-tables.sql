@@ -1,8 +1,9 @@
 -- 45-tables.sql: the user's tables, as SQL that reads them, and what is asked of them before they are read
 --
 -- Names are resolved to catalog entries once and written out with their schema, so that no search_path matters.
--- What a source function returns is the text of a sub-select (id bigint, geom geometry, grp text); only
--- typify_calibrate, typify_derive and their like put it into a query, which runs with the rights of the caller.
+-- What a source function returns is the text of a sub-select (id bigint, geom geometry, grp text, importance
+-- double precision); only typify_calibrate, typify_derive and their like put it into a query, which runs with the
+-- rights of the caller.
 
 CREATE FUNCTION typify_refuse_null(argument text,
 	hint text DEFAULT 'Give a value, or leave the argument out to take its default.')
@@ -79,11 +80,17 @@ BEGIN
 				format_type(type, NULL)
 			USING ERRCODE = '42804', HINT = format(
 				'Name the geometry column with %s => ''...'', or pass a view that casts to geometry.', argument);
+	ELSIF kind = 'number' AND type NOT IN ('int2'::regtype, 'int4'::regtype, 'int8'::regtype, 'float4'::regtype,
+			'float8'::regtype, 'numeric'::regtype) THEN
+		RAISE EXCEPTION 'column % of % is of type %, it must be a number', quote_ident(column_name), table_name,
+				format_type(type, NULL)
+			USING ERRCODE = '42804', HINT = format(
+				'Name a column of numbers with %s => ''...'', or pass a view that makes numbers of it.', argument);
 	END IF;
 	RETURN quote_ident(column_name);
 END $$;
 COMMENT ON FUNCTION typify_column_name(regclass, name, text, text) IS
-'The name of a column, quoted for SQL, after a look at its type. kind: integer (smallint, integer, bigint), integers (an array of them), geometry or any; domains over them count. argument: the argument that the hint tells to set. Errors: 22004 for NULL, 42703 for a column that is not there, 42804 for one of another type.';
+'The name of a column, quoted for SQL, after a look at its type. kind: integer (smallint, integer, bigint), integers (an array of them), geometry, number (integers, real, double precision, numeric) or any; domains over them count. argument: the argument that the hint tells to set. Errors: 22004 for NULL, 42703 for a column that is not there, 42804 for one of another type.';
 
 -- The text of a number or a word is the same where they are equal, so that an index on the column finds the groups; of
 -- other types that is not certain.
@@ -109,7 +116,8 @@ COMMENT ON FUNCTION typify_group_condition(regclass, name, text, text[]) IS
 'A condition on a column that holds at least for the rows of the groups, and that an index on it may serve; true where there is none, and for groups NULL, which means all. alias: of the table.';
 
 CREATE FUNCTION typify_source(relation regclass, argument text, prefix text, id_column name, geom_column name,
-	keyed boolean, grp text DEFAULT 'NULL', link text DEFAULT '', condition text DEFAULT 'true')
+	keyed boolean, grp text DEFAULT 'NULL', link text DEFAULT '', condition text DEFAULT 'true',
+	importance_column name DEFAULT NULL)
 RETURNS text
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
@@ -117,18 +125,23 @@ AS $$
 DECLARE
 	table_name text := typify_table_name(relation, argument);
 	id text := 'NULL';
+	importance text := 'NULL';
 	geom text;
 BEGIN
 	IF keyed THEN
 		id := 'b.' || typify_column_name(relation, id_column, 'integer', prefix || 'id_column');
 	END IF;
 	geom := 'b.' || typify_column_name(relation, geom_column, 'geometry', prefix || 'geom_column');
-	RETURN format('(SELECT %1$s::bigint AS id, %2$s::%3$s AS geom, %4$s::text COLLATE "C" AS grp FROM %5$s AS b%6$s '
-		'WHERE %2$s IS NOT NULL AND NOT ST_IsEmpty(%2$s) AND %7$s)', id, geom, 'geometry'::regtype, grp, table_name, link,
-		condition);
+	IF importance_column IS NOT NULL THEN
+		importance := 'b.' || typify_column_name(relation, importance_column, 'number', 'importance_column');
+	END IF;
+	RETURN format('(SELECT %1$s::bigint AS id, %2$s::%3$s AS geom, %4$s::text COLLATE "C" AS grp, '
+		'%5$s::double precision AS importance FROM %6$s AS b%7$s '
+		'WHERE %2$s IS NOT NULL AND NOT ST_IsEmpty(%2$s) AND %8$s)', id, geom, 'geometry'::regtype, grp, importance,
+		table_name, link, condition);
 END $$;
-COMMENT ON FUNCTION typify_source(regclass, text, text, name, name, boolean, text, text, text) IS
-'The sub-select of the rows of a table that have a geometry which is neither NULL nor EMPTY: id (NULL unless keyed), geom, and grp, by SQL of the columns of the table, b, and of what link joins to it. argument: what errors call the table; prefix: of the arguments that name its columns, as in lod200_id_column. Errors: as of typify_table_name and typify_column_name.';
+COMMENT ON FUNCTION typify_source(regclass, text, text, name, name, boolean, text, text, text, name) IS
+'The sub-select of the rows of a table that have a geometry which is neither NULL nor EMPTY: id (NULL unless keyed), geom, grp, by SQL of the columns of the table, b, and of what link joins to it, and importance (NULL unless importance_column names a column of numbers). argument: what errors call the table; prefix: of the arguments that name its columns, as in lod200_id_column. Errors: as of typify_table_name and typify_column_name.';
 
 CREATE FUNCTION typify_source_srid(source text, relation regclass, geom_column name, argument text) RETURNS integer
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED

@@ -15,7 +15,7 @@ COMMENT ON FUNCTION typify_nearest(point[], point[]) IS
 'For each point of a the place of the nearest point of b, counted from 1, the first of equals; NULLs where b is empty. Needs no index. Errors: 22004 for an array that contains NULLs; 22023 for a coordinate that is not finite.';
 
 CREATE FUNCTION typify_lod25_source(lod25 regclass, id_column name, geom_column name, group_by name, links regclass,
-	groups text[] DEFAULT NULL)
+	groups text[] DEFAULT NULL, importance_column name DEFAULT NULL)
 RETURNS text
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
@@ -39,9 +39,9 @@ BEGIN
 		grp := 'b.' || typify_column_name(lod25, group_by, 'any', 'group_by');
 		condition := typify_group_condition(lod25, group_by, 'b', groups);
 	END IF;
-	RETURN typify_source(lod25, 'lod25', '', id_column, geom_column, true, grp, link, condition);
+	RETURN typify_source(lod25, 'lod25', '', id_column, geom_column, true, grp, link, condition, importance_column);
 END $$;
-COMMENT ON FUNCTION typify_lod25_source(regclass, name, name, name, regclass, text[]) IS
+COMMENT ON FUNCTION typify_lod25_source(regclass, name, name, name, regclass, text[], name) IS
 'The source (see typify_source) of the buildings of a table. grp is the column group_by as text, or lod200_id of links (a table or view with lod25_id and lod200_id), or NULL. groups: at least these groups; NULL for all. Errors: as of typify_source; 22023 for links together with group_by.';
 
 -- A building is where its centre is, and so is an object of LOD200: one that covers buildings of several groups belongs
@@ -72,6 +72,7 @@ COMMENT ON FUNCTION typify_nearest_groups(text, text) IS
 
 CREATE FUNCTION typify_levels(lod25 regclass, lod200 regclass, id_column name, geom_column name,
 	lod200_id_column name, lod200_geom_column name, group_by name, lod200_group_by name, links regclass, keyed boolean,
+	importance_column name DEFAULT NULL,
 	OUT lod25_source text, OUT lod200_source text, OUT srid integer)
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
@@ -81,7 +82,7 @@ DECLARE
 	objects text;
 	lod200_srid integer;
 BEGIN
-	lod25_source := typify_lod25_source(lod25, id_column, geom_column, group_by, links);
+	lod25_source := typify_lod25_source(lod25, id_column, geom_column, group_by, links, NULL, importance_column);
 	IF lod200 IS NOT NULL THEN
 		PERFORM typify_table_name(lod200, 'lod200');
 		IF lod200_group_by IS NULL AND EXISTS (
@@ -116,5 +117,5 @@ BEGIN
 		END IF;
 	END IF;
 END $$;
-COMMENT ON FUNCTION typify_levels(regclass, regclass, name, name, name, name, name, name, regclass, boolean) IS
+COMMENT ON FUNCTION typify_levels(regclass, regclass, name, name, name, name, name, name, regclass, boolean, name) IS
 'Checks two levels of detail and returns their sources (see typify_source) and SRID. The group of an object of LOD200 is, with links, its id; else its column lod200_group_by, or the column that group_by names if LOD200 has it; else that of the building nearest to it (typify_nearest_groups); without group_by it is NULL. keyed: whether ids of LOD200 are needed, as with links they always are. lod200 may be NULL. Errors: as of typify_source; 22023 for lod200_group_by without group_by, SRIDs that are two or not projected, and ids that occur twice; 22004 for ids that are NULL.';

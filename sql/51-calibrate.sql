@@ -106,27 +106,37 @@ AS $$
 BEGIN
 	IF grouped AND barriers IS NULL THEN
 		RETURN QUERY EXECUTE format(
-			'SELECT l.grp, typify_placeholders(b.geom, b.id, $1, $2, l.options)
+			'SELECT l.grp, typify_placeholders(b.geom, b.id, $1, $2, l.options, b.importance)
 			FROM %s AS b JOIN unnest($3) AS l ON typify_group_key(l.grp) = typify_group_key(b.grp)
 			GROUP BY l.grp', source)
 			USING scale, s_u, groups;
 	ELSIF grouped THEN
 		RETURN QUERY EXECUTE format(
-			'SELECT l.grp, typify_barred(b.geom, b.id, $1, $2, l.options, (SELECT $4), NULL)
+			'SELECT l.grp, typify_barred(b.geom, b.id, $1, $2, l.options, (SELECT $4), b.importance)
 			FROM %s AS b JOIN unnest($3) AS l ON typify_group_key(l.grp) = typify_group_key(b.grp)
 			GROUP BY l.grp', source)
 			USING scale, s_u, groups, barriers;
 	ELSE
 		RETURN QUERY EXECUTE format(
-			'SELECT NULL::text, typify_barred(b.geom, b.id, $1, $2, $3, (SELECT $4), NULL) FROM %s AS b', source)
+			'SELECT NULL::text, typify_barred(b.geom, b.id, $1, $2, $3, (SELECT $4), b.importance) FROM %s AS b', source)
 			USING scale, s_u, groups[1].options, barriers;
 	END IF;
 END $$;
 COMMENT ON FUNCTION typify_each_group(text, double precision, double precision, typify_calibration[], boolean, geometry) IS
-'The placeholders of the groups of a sub-select (id, geom, grp) that are named in groups, each with its options there, in one reading. grouped: false takes everything as one group, with the options of the first element. barriers: of all groups; NULL for none. Errors: as of typify_placeholders.';
+'The placeholders of the groups of a sub-select (id, geom, grp, importance) that are named in groups, each with its options there, in one reading. grouped: false takes everything as one group, with the options of the first element. barriers: of all groups; NULL for none. Errors: as of typify_placeholders.';
+
+CREATE FUNCTION typify_houses(options typify_options) RETURNS text
+LANGUAGE sql STABLE PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT CASE WHEN (options).min_area > 0
+		THEN format('(ST_Area(geom) >= %L::double precision OR importance = ''Infinity'') IS TRUE', (options).min_area)
+		ELSE 'true' END;
+END;
+COMMENT ON FUNCTION typify_houses(typify_options) IS
+'A condition on the rows of a source of buildings (geom, importance) that holds for those that count, which is all but those below min_area.';
 
 -- Means by exact sums, so that they do not depend on the order of rows.
-CREATE FUNCTION typify_survey(lod25_source text, lod200_source text) RETURNS typify_calibration[]
+CREATE FUNCTION typify_survey(lod25_source text, lod200_source text, houses text) RETURNS typify_calibration[]
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
 AS $$
@@ -135,7 +145,9 @@ DECLARE
 BEGIN
 	EXECUTE format(
 		'WITH lod25 AS (
-			SELECT grp, count(*) AS n, sum(ST_Area(geom)::numeric) AS area FROM %s AS b GROUP BY grp
+			SELECT grp, greatest(count(*) FILTER (WHERE house), 1) AS n,
+				sum(ST_Area(geom)::numeric) FILTER (WHERE house) AS area
+			FROM (SELECT grp, geom, %s AS house FROM %s AS b) AS b GROUP BY grp
 		), lod200 AS (
 			SELECT grp, count(*) AS n, sum(ST_Area(geom)::numeric) AS area FROM %s AS c GROUP BY grp
 		), a AS (
@@ -148,14 +160,15 @@ BEGIN
 		SELECT array_agg(ROW(coalesce(a.grp, b.grp), coalesce(a.n, 0), coalesce(b.n, 0), a.area / a.n, NULL,
 			b.area / b.n, NULL, NULL, NULL, NULL, overall)::typify_calibration
 			ORDER BY overall DESC, coalesce(a.grp, b.grp) COLLATE "C" NULLS LAST)
-		FROM a FULL JOIN b USING (overall, key)', lod25_source, lod200_source) INTO levels;
+		FROM a FULL JOIN b USING (overall, key)', houses, lod25_source, lod200_source) INTO levels;
 	RETURN levels;
 END $$;
-COMMENT ON FUNCTION typify_survey(text, text) IS
-'Counts and mean areas of two sub-selects (geom, grp): the first element for all together, then one for each group of either, by the bytes of grp (C collation), the NULL group last. The other fields are NULL.';
+COMMENT ON FUNCTION typify_survey(text, text, text) IS
+'Counts and mean areas of two sub-selects (geom, grp, the first importance too), of the first of those that houses (see typify_houses) holds for, a group without any counting as one: the first element for all together, then one for each group of either, by the bytes of grp (C collation), the NULL group last. The other fields are NULL.';
 
--- psi => 0: then the area of a placeholder is never lost to a factor of 0. Messages about placeholders without size
--- belong to what is drawn; here nothing is.
+-- psi: such that the area factor is 1 at m200, since what is kept has its own area whatever the factor; 0 where that
+-- would be lost to rounding. With min_area nothing but sheds alone is without size: they count for nothing. Messages
+-- about placeholders without size belong to what is drawn; here nothing is.
 CREATE FUNCTION typify_measure(source text, levels typify_calibration[], s_u double precision, counts bigint[],
 	measured boolean[], barriers geometry)
 RETURNS typify_calibration[]
@@ -165,23 +178,28 @@ SET client_min_messages = error
 AS $$
 DECLARE
 	lod200_scale double precision := coalesce((levels[1].options).lod200_scale, 200000);
+	reduction double precision := coalesce((levels[1].options).source_scale, 25000) / lod200_scale;
+	probe_psi double precision := CASE WHEN reduction > 1e-4 THEN 1 - reduction * reduction ELSE 0 END;
 	factor double precision := CASE WHEN (levels[1].options).area_statistic = 'sum' THEN 1
-		ELSE typify_area_factor(lod200_scale, typify_options_with(levels[1].options, NULL, 0, NULL)) END;
+		ELSE typify_area_factor(lod200_scale, typify_options_with(levels[1].options, NULL, probe_psi, NULL)) END;
+	sized_only boolean := coalesce((levels[1].options).min_area, 0) > 0;
 	probes typify_calibration[];
 BEGIN
-	SELECT array_agg(ROW(l.grp, l.n25, l.n200, l.mean_area25, NULL, l.mean_area200, l.exponent, 0,
-		typify_options_with(typify_options_without_sizes(l.options), l.exponent, 0,
+	SELECT array_agg(ROW(l.grp, l.n25, l.n200, l.mean_area25, NULL, l.mean_area200, l.exponent, probe_psi,
+		typify_options_with(typify_options_without_sizes(l.options), l.exponent, probe_psi,
 			coalesce(counts[ordinality], (l.options).count)), l.calibrated, l.overall)::typify_calibration)
 	INTO probes
 	FROM unnest(levels) WITH ORDINALITY AS l
 	WHERE measured IS NULL OR measured[ordinality];
 	RETURN (
 		WITH size AS MATERIALIZED (
-			SELECT grp, cardinality(list) AS n, (SELECT sum(p.area) FROM unnest(list) AS p) / factor AS area
-			FROM typify_each_group(source, lod200_scale, s_u, probes, measured IS NOT NULL, barriers)
+			SELECT grp, n, area / factor AS area
+			FROM typify_each_group(source, lod200_scale, s_u, probes, measured IS NOT NULL, barriers), LATERAL (
+				SELECT count(*) FILTER (WHERE p.geom IS NOT NULL OR NOT sized_only) AS n, sum(p.area) AS area
+				FROM unnest(list) AS p) AS sizes
 		), mean AS (
-			SELECT typify_group_key(grp) AS key, false AS overall, area / n AS area FROM size
-			UNION ALL SELECT '', true, sum(area ORDER BY grp COLLATE "C" NULLS LAST) / sum(n) FROM size
+			SELECT typify_group_key(grp) AS key, false AS overall, area / nullif(n, 0) AS area FROM size
+			UNION ALL SELECT '', true, sum(area ORDER BY grp COLLATE "C" NULLS LAST) / nullif(sum(n), 0) FROM size
 		)
 		SELECT array_agg(ROW(l.grp, l.n25, l.n200, l.mean_area25, mean.area, l.mean_area200, l.exponent, l.psi,
 			l.options, l.calibrated, l.overall)::typify_calibration ORDER BY ordinality)
@@ -232,7 +250,7 @@ DECLARE
 	lawful boolean := given.exponent IS NULL AND given.count IS NULL AND rule = 'radical';
 	by_ink boolean := given.count IS NULL AND rule = 'black_white';
 	sized boolean := given.psi IS NULL AND given.area_statistic IS DISTINCT FROM 'sum';
-	levels typify_calibration[] := typify_survey(lod25_source, lod200_source);
+	levels typify_calibration[] := typify_survey(lod25_source, lod200_source, typify_houses(given));
 	whole typify_calibration := levels[1];
 	keys text[] := typify_group_keys(wanted);
 	measured boolean[];
@@ -311,7 +329,8 @@ CREATE FUNCTION typify_calibrate(
 	lod200_id_column name DEFAULT 'id',
 	lod200_geom_column name DEFAULT 'geom',
 	lod200_group_by name DEFAULT NULL,
-	links regclass DEFAULT NULL)
+	links regclass DEFAULT NULL,
+	importance_column name DEFAULT NULL)
 RETURNS SETOF typify_calibration
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
@@ -329,7 +348,7 @@ BEGIN
 	PERFORM typify_table_name(lod200, 'lod200');
 	PERFORM typify_check_parameters(coalesce(options.lod200_scale, 200000), s_u, options);
 	source := typify_levels(lod25, lod200, id_column, geom_column, lod200_id_column, lod200_geom_column, group_by,
-		lod200_group_by, links, false);
+		lod200_group_by, links, false, importance_column);
 	PERFORM typify_check_same_srid('lod25', source.srid, 'barriers', ST_SRID(options.barriers));
 	levels := typify_calibrate_levels(source.lod25_source, source.lod200_source, s_u,
 		typify_options_without_barriers(options), group_by IS NOT NULL OR links IS NOT NULL, NULL, true, options.barriers);
@@ -339,9 +358,9 @@ BEGIN
 	RETURN QUERY SELECT * FROM unnest(levels);
 END $$;
 COMMENT ON FUNCTION typify_calibrate(regclass, regclass, double precision, name, typify_options, name, name, name, name,
-	name, regclass) IS
+	name, regclass, name) IS
 'Takes psi and exponent from two stored levels of detail, for the clusters that s_u and options really make (psi: paper, section on size; exponent: 2 ln(n25 / n200) / ln(m200 / m25), not below 0): rows of typify_calibration, whose options are ready to pass on. Derived with them, a layer has at m200 exactly the count and, to rounding, the mean area of LOD200, and at m25 the count of LOD25. Without groups one row. With group_by (a column of lod25, of any type) or links (a table or view with lod25_id and lod200_id, as typify_match returns; lod200_id is the group) a first row, overall, for all groups together, then one for each group by the bytes of its name, the NULL group last; calibrated is false where a group has no object of LOD200 or more of them than buildings: it takes the exponent and psi of all. The mean_placeholder_area of all is that of the placeholders of all groups.
 Objects of LOD200 belong to the group in their column lod200_group_by (default: the column that group_by names, if LOD200 has it), without one to that of the building whose centre is nearest to theirs (see typify_centre; of equally near ones that with the smallest id); with links, to the group of their lod200_id_column.
 What options set is kept: exponent, psi, count; with count, count_rule => ''black_white'' or min_distance alone no exponent is calibrated, since these say how many. With black_white the counts follow from the psi that is calibrated. With area_statistic => ''sum'' no psi is calibrated, since it has no effect. No psi is calibrated from a LOD200 without areas (points, lines). Barriers stay with the first row''s options alone: a copy for every group may be more than a server holds.
-The tables are read, never written; id_column and, asked for with links only, lod200_id_column (smallint, integer, bigint; different for each row) and the two geometry columns may be named otherwise. NULL and EMPTY geometries do not count. No row when lod25 has no building.
+The tables are read, never written; id_column and, asked for with links only, lod200_id_column (smallint, integer, bigint; different for each row) and the two geometry columns may be named otherwise. NULL and EMPTY geometries do not count, nor do buildings below min_area, a group of such alone being counted as one building. importance_column: a column of lod25 with the importance of each building (see typify_placeholders). No row when lod25 has no building.
 Errors: 42P01, 42809, 42703, 42804 for a table or column that is not there or of another kind; 22004 for arguments and ids that are NULL; 22023 for two SRIDs, a geographic one, ids that occur twice, a lod200 without objects or with more of them than lod25, links together with group_by, lod200_group_by without group_by; others as of typify_placeholders.';

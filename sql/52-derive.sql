@@ -63,11 +63,11 @@ DECLARE
 	levels typify_calibration[];
 BEGIN
 	EXECUTE format(
-		'WITH census AS MATERIALIZED (SELECT grp, count(*) AS n FROM %s AS b GROUP BY grp)
+		'WITH census AS MATERIALIZED (SELECT grp, greatest(count(*) FILTER (WHERE %s), 1) AS n FROM %s AS b GROUP BY grp)
 		SELECT array_agg(ROW(grp, n, 0, NULL, NULL, NULL, NULL, NULL, $1, false, overall)::typify_calibration
 			ORDER BY overall DESC, grp COLLATE "C" NULLS LAST)
 		FROM (SELECT grp, n, false AS overall FROM census
-			UNION ALL SELECT NULL, sum(n)::bigint, true FROM census) AS each', source)
+			UNION ALL SELECT NULL, sum(n)::bigint, true FROM census) AS each', typify_houses(options), source)
 	INTO levels USING options;
 	RETURN levels;
 END $$;
@@ -109,7 +109,7 @@ COMMENT ON FUNCTION typify_surroundings(text, text[], double precision) IS
 CREATE FUNCTION typify_plan(lod25 regclass, lod200 regclass, scale double precision, s_u double precision,
 	group_by name, box geometry, options typify_options, allocation text, id_column name, geom_column name,
 	lod200_id_column name, lod200_geom_column name, lod200_group_by name, links regclass, groups text[],
-	barriers_table regclass, barriers_geom_column name,
+	barriers_table regclass, barriers_geom_column name, importance_column name,
 	OUT source text, OUT levels typify_calibration[], OUT hidden text[], OUT barriers geometry)
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
 SET search_path FROM CURRENT
@@ -135,12 +135,12 @@ BEGIN
 	END IF;
 	PERFORM typify_check_parameters(scale, s_u, options);
 	whole := typify_levels(lod25, lod200, id_column, geom_column, lod200_id_column, lod200_geom_column, group_by,
-		lod200_group_by, links, false);
+		lod200_group_by, links, false, importance_column);
 	PERFORM typify_check_same_srid('lod25', whole.srid, 'box', ST_SRID(box));
 
 	wanted := typify_wanted(whole.lod25_source, groups, box);
 	keys := typify_group_keys(wanted);
-	source := typify_lod25_source(lod25, id_column, geom_column, group_by, links, wanted);
+	source := typify_lod25_source(lod25, id_column, geom_column, group_by, links, wanted, importance_column);
 	barriers := typify_barrier_lines(barriers_table, barriers_geom_column, options, whole.srid,
 		CASE WHEN lod200 IS NULL THEN typify_surroundings(source, wanted, scale) END);
 	options := typify_options_without_barriers(options);
@@ -166,7 +166,7 @@ BEGIN
 	WHERE NOT l.overall AND l.n25 > 0 AND (wanted IS NULL OR typify_group_key(l.grp) = ANY (keys));
 END $$;
 COMMENT ON FUNCTION typify_plan(regclass, regclass, double precision, double precision, name, geometry, typify_options,
-	text, name, name, name, name, name, regclass, text[], regclass, name) IS
+	text, name, name, name, name, name, regclass, text[], regclass, name, name) IS
 'What typify_derive, whose arguments these are, does before it draws. source: of the buildings, at least those of the groups asked for; barriers: all that these groups may touch; levels: these groups, by the bytes of their names, the NULL group last, each with its options, NULL when there is none; hidden: the keys (typify_group_key) of those that get no placeholder, and are one row that is not drawn.';
 
 CREATE FUNCTION typify_draw_sites(source text, scale double precision, s_u double precision,
@@ -196,7 +196,7 @@ BEGIN
 		'SELECT p.id, CASE WHEN shown THEN p.geom END, p.member_count, p.members, CASE WHEN shown THEN p.area ELSE 0 END,
 			CASE WHEN shown THEN p.width ELSE 0 END, CASE WHEN shown THEN p.length ELSE 0 END, p.orientation, g.grp,
 			CASE WHEN shown AND p.geom IS NOT NULL THEN p.site END
-		FROM (SELECT l.grp, typify_sites(b.geom, b.id, $1, $2, l.options, (SELECT $5), NULL) AS list
+		FROM (SELECT l.grp, typify_sites(b.geom, b.id, $1, $2, l.options, (SELECT $5), b.importance) AS list
 			FROM %s AS b JOIN unnest($3) AS l ON typify_group_key(l.grp) = typify_group_key(b.grp)
 			GROUP BY l.grp) AS g
 		CROSS JOIN LATERAL unnest(g.list) AS p
@@ -315,7 +315,8 @@ CREATE FUNCTION typify_derive(
 	links regclass DEFAULT NULL,
 	groups text[] DEFAULT NULL,
 	barriers regclass DEFAULT NULL,
-	barriers_geom_column name DEFAULT 'geom')
+	barriers_geom_column name DEFAULT 'geom',
+	importance_column name DEFAULT NULL)
 RETURNS TABLE (
 	id bigint,
 	geom geometry,
@@ -333,17 +334,19 @@ DECLARE
 	plan record;
 BEGIN
 	plan := typify_plan(lod25, lod200, scale, s_u, group_by, box, options, allocation, id_column, geom_column,
-		lod200_id_column, lod200_geom_column, lod200_group_by, links, groups, barriers, barriers_geom_column);
+		lod200_id_column, lod200_geom_column, lod200_group_by, links, groups, barriers, barriers_geom_column,
+		importance_column);
 	RETURN QUERY SELECT * FROM typify_draw(plan.source, scale, s_u, plan.levels, plan.hidden,
 		group_by IS NOT NULL OR links IS NOT NULL, plan.barriers, box IS NULL AND groups IS NULL);
 END $$;
 COMMENT ON FUNCTION typify_derive(regclass, regclass, double precision, double precision, name, geometry,
-	typify_options, text, name, name, name, name, name, regclass, text[], regclass, name) IS
+	typify_options, text, name, name, name, name, name, regclass, text[], regclass, name, name) IS
 'The placeholders of a table of buildings at any scale (its denominator, at least source_scale), calibrated as typify_calibrate does with lod200, the stored coarse level, or, where lod200 is NULL, with options as they are. Rows in no particular order: the fields of typify_placeholder (id: of the representative, and so a key of the layer), and grp, the group as text.
 group_by: a column of lod25, of any type; each of its values is typified by itself, NULL too. links: a table or view with lod25_id and lod200_id, as typify_match returns, instead: lod200_id is the group, and buildings without a link are the NULL group; at m200 each group with an object of lod200 is one placeholder of its area.
 allocation: each_group gives every group its own count, as the aggregate does. total divides the count of the whole table at the scale by largest remainders, in proportion to what the law leaves of each group in real numbers, equal remainders by the bytes of the group''s name. A group may get none: it is one row with geom NULL, area, width and length 0, all its buildings as members.
 box: only groups that have a building whose bounding box meets that of box, each whole. groups: only these groups (an element NULL is the NULL group). The rows are the same as without either, unless options.min_gap is set.
 options.min_gap: with neither box nor groups placeholders are kept apart over the whole table. Those of different groups are not merged but shrunk, moved or, last, not drawn (geom NULL, with a WARNING). With box or groups each group is legible by itself.
 barriers: a table or view of roads, rivers, railways (its column barriers_geom_column, lines or polygons) that nothing is merged across: those that are drawn at the scale. The same as the option barriers, which goes without a table; calibration heeds them too.
+importance_column: a column of lod25 with numbers, the importance of each building as typify_placeholders takes it: ''Infinity'' keeps it in place and in size.
 Columns, groups of lod200 and what options keep: see typify_calibrate. lod25 and lod200 may be tables, views, materialized, partitioned or foreign tables; NULL and EMPTY geometries do not count. No row when lod25 has no building.
 Errors: as of typify_calibrate and typify_placeholders; 22023 for an allocation or a scale that is not allowed, a box of another SRID, and total with min_distance alone.';

@@ -66,7 +66,7 @@ COMMENT ON FUNCTION typify_legible_options(typify_options) IS
 CREATE FUNCTION typify_layer_definition(lod25 regclass, lod200 regclass, scale double precision, s_u double precision,
 	group_by name, options typify_options, allocation text, id_column name, geom_column name,
 	lod200_id_column name, lod200_geom_column name, lod200_group_by name, links regclass, barriers regclass,
-	barriers_geom_column name)
+	barriers_geom_column name, importance_column name)
 RETURNS json
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
@@ -74,7 +74,6 @@ SET extra_float_digits = 1 AS
 $$
 DECLARE
 	argument text;
-	legible typify_options := typify_legible_options(options);
 BEGIN
 	argument := CASE WHEN scale IS NULL THEN 'scale' WHEN s_u IS NULL THEN 's_u'
 		WHEN allocation IS NULL THEN 'allocation' WHEN id_column IS NULL THEN 'id_column'
@@ -92,18 +91,19 @@ BEGIN
 		'lod25', typify_table_name(lod25, 'lod25'),
 		'lod200', CASE WHEN lod200 IS NOT NULL THEN typify_table_name(lod200, 'lod200') END,
 		'scale', scale, 's_u', s_u, 'group_by', group_by, 'allocation', allocation,
-		'options', jsonb_strip_nulls(to_jsonb(legible) || jsonb_build_object('barriers', (legible).barriers::text)),
+		'options', jsonb_strip_nulls(to_jsonb(options) || jsonb_build_object('barriers', (options).barriers::text)),
 		'id_column', id_column, 'geom_column', geom_column, 'lod200_id_column', lod200_id_column,
 		'lod200_geom_column', lod200_geom_column, 'lod200_group_by', lod200_group_by,
 		'links', CASE WHEN links IS NOT NULL THEN typify_table_name(links, 'links') END,
 		'barriers', CASE WHEN barriers IS NOT NULL THEN typify_table_name(barriers, 'barriers') END,
-		'barriers_geom_column', barriers_geom_column);
+		'barriers_geom_column', barriers_geom_column,
+		'importance_column', importance_column);
 END
 $$;
 
 COMMENT ON FUNCTION typify_layer_definition(regclass, regclass, double precision, double precision, name,
-	typify_options, text, name, name, name, name, name, regclass, regclass, name) IS
-'How a layer is derived, as its comment says it: a JSON object of the version of typify, the arguments of typify_derive by their names (relations with schema) and, among options, those that are set, and those of typify_legible_options. Errors: 22004 for a NULL where a value is needed; 54000 for the option barriers above 100 kB; those of typify_table_name.';
+	typify_options, text, name, name, name, name, name, regclass, regclass, name, name) IS
+'How a layer is derived, as its comment says it: a JSON object of the version of typify, the arguments of typify_derive by their names (relations with schema) and, among options, those that are set. Errors: 22004 for a NULL where a value is needed; 54000 for the option barriers above 100 kB; those of typify_table_name.';
 
 CREATE FUNCTION typify_layer_comment(relation oid) RETURNS jsonb
 LANGUAGE plpgsql STABLE PARALLEL SAFE
@@ -164,7 +164,8 @@ BEGIN
 	END IF;
 	RETURN format('%s(lod25 => %L::regclass, lod200 => %L::regclass, scale => %L, s_u => %L, group_by => %L, box => NULL, '
 		'options => %s, allocation => %L, id_column => %L, geom_column => %L, lod200_id_column => %L, '
-		'lod200_geom_column => %L, lod200_group_by => %L, links => %L::regclass, groups => %s%s)',
+		'lod200_geom_column => %L, lod200_group_by => %L, links => %L::regclass, groups => %s%s, '
+		'importance_column => %L)',
 		function, definition->>'lod25', definition->>'lod200', definition->>'scale', definition->>'s_u',
 		definition->>'group_by', options, definition->>'allocation', definition->>'id_column',
 		definition->>'geom_column', definition->>'lod200_id_column', definition->>'lod200_geom_column',
@@ -172,7 +173,8 @@ BEGIN
 		CASE WHEN function = 'typify_plan' OR definition->>'barriers' IS NOT NULL THEN format(
 			', %s => %L::regclass, barriers_geom_column => %L',
 			CASE function WHEN 'typify_plan' THEN 'barriers_table' ELSE 'barriers' END,
-			definition->>'barriers', definition->>'barriers_geom_column') ELSE '' END);
+			definition->>'barriers', definition->>'barriers_geom_column') ELSE '' END,
+		definition->>'importance_column');
 END
 $$;
 
@@ -282,7 +284,8 @@ CREATE FUNCTION typify_layer_source(definition jsonb, groups text[] DEFAULT NULL
 LANGUAGE sql STABLE PARALLEL SAFE
 BEGIN ATOMIC
 	SELECT typify_lod25_source((definition->>'lod25')::regclass, (definition->>'id_column')::name,
-		(definition->>'geom_column')::name, (definition->>'group_by')::name, (definition->>'links')::regclass, groups);
+		(definition->>'geom_column')::name, (definition->>'group_by')::name, (definition->>'links')::regclass, groups,
+		(definition->>'importance_column')::name);
 END;
 
 COMMENT ON FUNCTION typify_layer_source(jsonb, text[]) IS
@@ -466,17 +469,18 @@ CREATE FUNCTION typify_create_scale(
 	lod200_group_by name DEFAULT NULL,
 	links regclass DEFAULT NULL,
 	barriers regclass DEFAULT NULL,
-	barriers_geom_column name DEFAULT 'geom')
+	barriers_geom_column name DEFAULT 'geom',
+	importance_column name DEFAULT NULL)
 RETURNS regclass
 LANGUAGE sql
 BEGIN ATOMIC
 	SELECT typify_layer_create(current_schema(), name, kind, typify_layer_definition(lod25, lod200, scale, s_u,
-		group_by, options, allocation, id_column, geom_column, lod200_id_column, lod200_geom_column, lod200_group_by,
-		links, barriers, barriers_geom_column));
+		group_by, typify_legible_options(options), allocation, id_column, geom_column, lod200_id_column,
+		lod200_geom_column, lod200_group_by, links, barriers, barriers_geom_column, importance_column));
 END;
 
 COMMENT ON FUNCTION typify_create_scale(text, regclass, regclass, double precision, double precision, name, text,
-	typify_options, text, name, name, name, name, name, regclass, regclass, name) IS
+	typify_options, text, name, name, name, name, name, regclass, regclass, name, name) IS
 'Creates a layer: the placeholders of typify_derive at one scale, stored, and returns it. name is written as in SQL, with or without a schema; kind is ''materialized view'' or ''table''; all other arguments are those of typify_derive. Options leave it legible: min_side is 0.35 and min_gap 0.2 mm on the map unless they say otherwise, 0 turns either off. The layer has its columns, a unique index on id (the id of the representative, which does not change when buildings elsewhere do), geom of type geometry(Polygon, SRID) with a spatial index, for tables an index on grp, and a JSON comment that says how it was derived. It is dropped by DROP. Errors: 42P07 when the name is taken; 42602, 42622, 3F000 for a name that is none, is too long or has a schema that is missing; 22023 for another kind; 22004 for a NULL where a value is needed; 0A000 for a materialized view of a temporary table; those of typify_derive.';
 
 CREATE FUNCTION typify_refresh_scale(name regclass, concurrently boolean DEFAULT false) RETURNS void
@@ -748,7 +752,8 @@ CREATE PROCEDURE typify_build_scale(
 	links regclass DEFAULT NULL,
 	batch integer DEFAULT 1000,
 	barriers regclass DEFAULT NULL,
-	barriers_geom_column name DEFAULT 'geom')
+	barriers_geom_column name DEFAULT 'geom',
+	importance_column name DEFAULT NULL)
 LANGUAGE plpgsql AS
 $$
 DECLARE
@@ -758,9 +763,10 @@ DECLARE
 	done integer := 0;
 BEGIN
 	EXECUTE format('SELECT * FROM %1$s.typify_layer_begin(current_schema(), $1, %1$s.typify_layer_definition($2, $3, $4, '
-		'$5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $16, $17), $15)', typify)
+		'$5, $6, %1$s.typify_legible_options($7), $8, $9, $10, $11, $12, $13, $14, $16, $17, $18), $15)', typify)
 	INTO layer, number USING name, lod25, lod200, scale, s_u, group_by, options, allocation, id_column, geom_column,
-		lod200_id_column, lod200_geom_column, lod200_group_by, links, batch, barriers, barriers_geom_column;
+		lod200_id_column, lod200_geom_column, lod200_group_by, links, batch, barriers, barriers_geom_column,
+		importance_column;
 	WHILE done < number LOOP
 		EXECUTE format('SELECT %s.typify_layer_build($1, $2, $3)', typify)
 			USING layer, done + 1, least(done + batch::bigint, number)::integer;
@@ -774,5 +780,5 @@ END
 $$;
 
 COMMENT ON PROCEDURE typify_build_scale(text, regclass, regclass, double precision, double precision, name,
-	typify_options, text, name, name, name, name, name, regclass, integer, regclass, name) IS
+	typify_options, text, name, name, name, name, name, regclass, integer, regclass, name, name) IS
 'Creates the layer that typify_create_scale creates with kind => ''table'', group by group: batch groups at a time, a COMMIT after each, and a NOTICE that says how many are done. After a stop (cancelled, failed, connection lost) the table stays with what is done and "finished": false in its comment; calling with the same arguments goes on with the groups that have no rows yet. Groups, counts and calibration are found once, at the beginning, so that it takes little longer than typify_create_scale. A call that goes on keeps to them, unless a building, its group, or what LOD200 has of a group is another than then: that is said (NOTICE), and the table is begun anew. Edits while a call runs are edits like any later: name their groups to typify_refresh_groups when it is finished. CALL it outside a transaction block (2D000 inside). Other errors: as of typify_create_scale; 22023 for a batch below 1.';

@@ -126,7 +126,8 @@ COMMENT ON FUNCTION typify_quality_segments(regclass, text, name, integer) IS
 -- ---- the figures ----
 
 -- Where many overlap in one place, each place is inked once.
-CREATE FUNCTION typify_quality_gaps(geoms geometry[], min_side double precision, min_gap double precision,
+CREATE FUNCTION typify_quality_gaps(geoms geometry[], directions point[], min_side double precision,
+	min_gap double precision,
 	OUT overlapping bigint, OUT narrow_gaps bigint, OUT short_sides bigint, OUT inked double precision)
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
@@ -136,6 +137,9 @@ AS $$
 BEGIN
 	WITH shape AS MATERIALIZED (
 		SELECT geom, place, ST_Area(geom) AS area FROM unnest(geoms) WITH ORDINALITY AS s (geom, place)
+	), turned AS MATERIALIZED (
+		SELECT ST_Affine(geom, u[0], u[1], -u[1], u[0], 0, 0) AS geom
+		FROM ROWS FROM (unnest(geoms), unnest(directions)) AS t (geom, u)
 	), pair AS MATERIALIZED (
 		SELECT a_place, b_place, overlap FROM typify_close_pairs(geoms, min_gap)
 	), crowd AS (
@@ -145,12 +149,12 @@ BEGIN
 		SELECT sum(area) - ST_Area(ST_UnaryUnion(ST_Collect(typify_valid(geom)))) AS twice FROM crowd GROUP BY crowd
 	)
 	SELECT (SELECT count(*) FROM pair WHERE overlap), (SELECT count(*) FROM pair WHERE NOT overlap),
-		(SELECT count(*) FROM shape, typify_sides(geom) WHERE width < min_side * (1 - 1e-6)),
+		(SELECT count(*) FROM turned WHERE ST_YMax(geom) - ST_YMin(geom) < min_side * (1 - 1e-6)),
 		(SELECT coalesce(sum(area), 0) FROM shape) - (SELECT coalesce(sum(twice), 0) FROM crowd_area)
 	INTO overlapping, narrow_gaps, short_sides, inked;
 END $$;
-COMMENT ON FUNCTION typify_quality_gaps(geometry[], double precision, double precision) IS
-'Support of typify_quality: pairs of polygons that overlap, pairs that do not and are nearer than min_gap, polygons narrower than min_side, and the area of their union; ground units';
+COMMENT ON FUNCTION typify_quality_gaps(geometry[], point[], double precision, double precision) IS
+'Support of typify_quality: of polygons, with the unit vectors of their longer sides, pairs that overlap, pairs that do not and are nearer than min_gap, polygons narrower than min_side, and the area of their union; ground units';
 
 CREATE FUNCTION typify_quality_links(ids bigint[], centres point[], member_ids bigint[], member_places bigint[],
 	placeholders point[], by_members boolean,
@@ -265,7 +269,8 @@ BEGIN
 		FROM (SELECT p, 1 AS b, 0 AS a FROM unnest(before) AS p UNION ALL SELECT p, 0, 1 FROM unnest(after) AS p) AS each
 		GROUP BY 1, 2
 	)
-	SELECT corr(a, b), regr_slope(a, b) * cardinality(before) / nullif(cardinality(after), 0), count(*) FILTER (WHERE b > 0)
+	SELECT corr(a, b), regr_slope(a, b) * cardinality(before) / nullif(cardinality(after), 0),
+		count(*) FILTER (WHERE b > 0)
 	INTO correlation, slope, settled FROM counted;
 END $$;
 COMMENT ON FUNCTION typify_quality_density(point[], point[], double precision) IS
@@ -364,8 +369,10 @@ BEGIN
 	IF scale IS NULL THEN
 		PERFORM typify_refuse_null('scale', 'Give the denominator: 75000 for a map at 1:75 000.');
 	END IF;
-	PERFORM typify_check_parameters(scale, 0, options), typify_check_length(length, argument, 'Give millimetres on the map.')
-	FROM ROWS FROM (unnest(lengths), unnest(ARRAY['min_side', 'min_gap', 'barrier_width', 'cell'])) AS l (length, argument);
+	PERFORM typify_check_parameters(scale, 0, options),
+		typify_check_length(length, argument, 'Give millimetres on the map.')
+	FROM ROWS FROM (unnest(lengths), unnest(ARRAY['min_side', 'min_gap', 'barrier_width', 'cell']))
+		AS l (length, argument);
 	IF lengths[4] = 0 THEN
 		RAISE EXCEPTION 'cell is 0, it must be above 0'
 			USING ERRCODE = '22023', HINT = 'Give the side of the cells in which density is compared, mm on the map.';
@@ -476,7 +483,7 @@ BEGIN
 	repeated := link.repeated;
 	SELECT g.overlapping, g.narrow_gaps, g.short_sides, g.inked / nullif(density.settled * (cell * unit) ^ 2, 0)
 	INTO overlapping, narrow_gaps, short_sides, ink_after
-	FROM typify_quality_gaps(after.geoms, min_side * unit, min_gap * unit) AS g;
+	FROM typify_quality_gaps(after.geoms, after.directions, min_side * unit, min_gap * unit) AS g;
 	ink_before := before.area / nullif(density.settled * (cell * unit) ^ 2, 0);
 	IF barriers IS NOT NULL THEN
 		SELECT b.crossings, b.gaps, b.members_across INTO barrier_crossings, barrier_gaps, members_across

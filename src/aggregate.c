@@ -1,5 +1,5 @@
 /*
- * aggregate.c - the aggregates typify and typify_placeholders.
+ * aggregate.c - the aggregates typify, typify_placeholders and typify_hierarchy.
  *
  * The transition function measures a row and adds it to the group's state; combine appends; the final functions put
  * the buildings in canonical order and so give the same answer however the rows came together. A group without a
@@ -7,14 +7,9 @@
  */
 #include "compat.h"
 
-#include "access/htup_details.h"
 #include "catalog/pg_type.h"
-#include "funcapi.h"
 #include "miscadmin.h"
-#include "utils/array.h"
 #include "utils/lsyscache.h"
-#include "utils/memutils.h"
-#include "utils/typcache.h"
 
 #include "backend.h"
 #include "call.h"
@@ -22,10 +17,12 @@
 #include "core/group.h"
 #include "core/mesh.h"
 #include "geometry.h"
+#include "hierarchy.h"
 #include "layer.h"
 #include "options.h"
 #include "partial.h"
 #include "progress.h"
+#include "row_array.h"
 #include "state.h"
 
 /* --- rows --- */
@@ -36,11 +33,16 @@ typedef struct row_layout
 	int id;
 	int parameters, parameter_count;
 	int importance;
+	bool without_scale; /* parameters: where the scale would be */
 } row_layout;
 
 static const row_layout geometry_layout = {.parameters = 2, .parameter_count = 3};
 static const row_layout placeholders_layout = {.id = 2, .parameters = 3, .parameter_count = 3, .importance = 6};
 static const row_layout barred_layout = {.id = 2, .parameters = 3, .parameter_count = 4, .importance = 7};
+static const row_layout hierarchy_layout = {
+	.id = 2, .parameters = 2, .parameter_count = 3, .importance = 5, .without_scale = true};
+static const row_layout barred_hierarchy_layout = {
+	.id = 2, .parameters = 2, .parameter_count = 4, .importance = 6, .without_scale = true};
 
 /* The context of states; the one preamble of all five functions. */
 static MemoryContext
@@ -72,7 +74,7 @@ static ty_state *
 state_for_row(FunctionCallInfo fcinfo, MemoryContext context, const row_layout *layout, int32 srid)
 {
 	ty_state *s = PG_ARGISNULL(0) ? NULL : (ty_state *) PG_GETARG_POINTER(0);
-	ty_call *call = ty_call_of(fcinfo, layout->parameters, layout->parameter_count, 1);
+	ty_call *call = ty_call_of(fcinfo, layout->parameters, layout->parameter_count, 1, !layout->without_scale);
 	const ty_parameters *parameters;
 
 	call->group_context = context;
@@ -163,15 +165,21 @@ warn_of_result(const ty_state *s, const ty_result *result)
 						  (long long) s->buildings[result->colliding[1]].id));
 }
 
-/* Typifies the group; the result is of the current context. The state stays as it is. */
-static void
-state_typify(const ty_state *s, ty_result *result)
+static ty_input
+input_of(const ty_state *s)
 {
-	ty_input input = {.buildings = s->buildings,
+	return (ty_input){.buildings = s->buildings,
 					  .n = s->count,
 					  .importance = s->importance,
 					  .outlines = s->outlines,
 					  .barriers = ty_lines_of_barriers(s->barriers)};
+}
+
+/* Typifies the group; the result is of the current context. The state stays as it is. */
+static void
+state_typify(const ty_state *s, ty_result *result)
+{
+	ty_input input = input_of(s);
 	ty_parameters parameters = s->parameters;
 
 	ty_bring_to_ground(&parameters, s->metres_per_unit);
@@ -218,38 +226,20 @@ check_ids(const ty_state *s)
 	pfree(unused);
 }
 
-/* The fields of the composite typify_placeholder, in order. */
-enum
-{
-	FIELD_ID = 0,
-	FIELD_GEOM,
-	FIELD_MEMBER_COUNT,
-	FIELD_MEMBERS,
-	FIELD_AREA,
-	FIELD_WIDTH,
-	FIELD_LENGTH,
-	FIELD_ORIENTATION,
-	FIELDS,
-	FIELD_SITE = FIELDS, /* of the composite typify_site alone */
-	FIELDS_WITH_SITE
-};
-
 #define SITE_ARRAY_SIZE (ARR_OVERHEAD_NONULLS(1) + SITE_NUMBERS * sizeof(float8))
 #define SITE_SIZE_BOUND (SITE_ARRAY_SIZE + MAXIMUM_ALIGNOF)
+/* the field of the composite typify_site that comes after those of typify_placeholder */
+#define FIELD_SITE TY_PLACEHOLDER_FIELDS
 #define MEMBERS_SIZE(count) (ARR_OVERHEAD_NONULLS(1) + (size_t) (count) * sizeof(int64))
-/* header with null bitmap, fixed fields, alignment: what a row takes at most besides geometry and members */
-#define ROW_OVERHEAD (MAXALIGN(SizeofHeapTupleHeader + 1) + 6 * sizeof(float8) + 3 * MAXIMUM_ALIGNOF)
+/* what a row takes at most besides geometry and members */
+#define ROW_SIZE (TY_ROW_OVERHEAD + 6 * sizeof(float8))
 
 /* The array under construction. */
 typedef struct row_writer
 {
-	TupleDesc shape;
-	Datum *values; /* of a row, with dropped attributes behind the fields */
-	bool *nulls;
+	ty_row_array rows;
 	const ty_state *group;
 	const ty_result *result;
-	ArrayType *array; /* room for the most it can take; what is not written takes no memory */
-	size_t used;
 	void *polygon;					 /* TY_POLYGON_DATUM_SIZE bytes, used for every row */
 	ArrayType *members;				 /* room for the largest placeholder's */
 	uint32 *unused;					 /* as long, zero: what their sort moves along */
@@ -266,55 +256,35 @@ polygon_size(const ty_state *s, const ty_placeholder *placeholder)
 }
 
 static size_t
-array_size_bound(const ty_state *s, const ty_result *result)
+rows_size(const ty_state *s, const ty_result *result)
 {
-	size_t size = ARR_OVERHEAD_NONULLS(1);
+	size_t size = 0;
 
 	for (size_t k = 0; k < result->count; k++)
-		size += ROW_OVERHEAD + polygon_size(s, &result->placeholders[k]) + MEMBERS_SIZE(result->placeholders[k].count);
+		size += ROW_SIZE + polygon_size(s, &result->placeholders[k]) + MEMBERS_SIZE(result->placeholders[k].count);
 	return size;
-}
-
-static void
-array_header(ArrayType *array, size_t size, Oid element, int count)
-{
-	SET_VARSIZE(array, size);
-	array->ndim = 1;
-	array->dataoffset = 0; /* no nulls */
-	array->elemtype = element;
-	ARR_DIMS(array)[0] = count;
-	ARR_LBOUND(array)[0] = 1;
 }
 
 static void
 writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result,
 			 const ty_parameters *site_parameters)
 {
-	Oid element = get_element_type(get_func_rettype(fcinfo->flinfo->fn_oid));
-	size_t size = array_size_bound(s, result) + (site_parameters != NULL ? result->count * SITE_SIZE_BOUND : 0);
-	int fields = site_parameters != NULL ? FIELDS_WITH_SITE : FIELDS;
+	bool sited = site_parameters != NULL;
 	uint32 most = 0;
 
-	if (!AllocSizeIsValid(size))
-		ty_refuse_size();
+	ty_row_array_begin(&writer->rows, fcinfo, TY_PLACEHOLDER_FIELDS + sited,
+					   sited ? "typify_site" : "typify_placeholder",
+					   rows_size(s, result) + (sited ? result->count * SITE_SIZE_BOUND : 0), result->count);
 	for (size_t k = 0; k < result->count; k++)
 		most = Max(most, result->placeholders[k].count);
-	writer->shape = lookup_rowtype_tupdesc(element, -1);
-	ty_check_shape(writer->shape, fields, site_parameters != NULL ? "typify_site" : "typify_placeholder");
-	writer->values = palloc0(writer->shape->natts * sizeof(Datum));
-	writer->nulls = palloc0(writer->shape->natts * sizeof(bool));
-	memset(writer->nulls + fields, true, writer->shape->natts - fields);
 	writer->group = s;
 	writer->result = result;
-	writer->array = palloc(size);
-	array_header(writer->array, size, element, (int) result->count);
-	writer->used = ARR_OVERHEAD_NONULLS(1);
 	writer->polygon = palloc(TY_POLYGON_DATUM_SIZE);
 	writer->members = palloc(MEMBERS_SIZE(most));
 	writer->unused = palloc0(most * sizeof(uint32));
 	writer->parameters = site_parameters;
 	writer->site = palloc0(SITE_ARRAY_SIZE);
-	array_header(writer->site, SITE_ARRAY_SIZE, FLOAT8OID, SITE_NUMBERS);
+	ty_array_header(writer->site, SITE_ARRAY_SIZE, FLOAT8OID, SITE_NUMBERS);
 }
 
 /* The placeholder's numbers, as an array that the next call overwrites. */
@@ -322,10 +292,13 @@ static Datum
 writer_site(row_writer *writer, const ty_placeholder *placeholder)
 {
 	const ty_state *s = writer->group;
-	ty_input input = {.buildings = s->buildings, .n = s->count, .outlines = s->outlines};
+	ty_input input = input_of(s);
 	ty_site site;
 
-	ty_placeholder_site(writer->parameters, &input, placeholder, &site);
+	if (writer->result->sites != NULL)
+		site = writer->result->sites[placeholder - writer->result->placeholders];
+	else
+		ty_placeholder_site(writer->parameters, &input, placeholder, &site);
 	ty_site_to_numbers(&site, placeholder->outlined, writer->parameters, (double *) ARR_DATA_PTR(writer->site));
 	return PointerGetDatum(writer->site);
 }
@@ -337,7 +310,7 @@ writer_members(row_writer *writer, const ty_placeholder *placeholder)
 	const uint32 *members = writer->result->members + placeholder->first;
 	uint64 *ids;
 
-	array_header(writer->members, MEMBERS_SIZE(placeholder->count), INT8OID, (int) placeholder->count);
+	ty_array_header(writer->members, MEMBERS_SIZE(placeholder->count), INT8OID, (int) placeholder->count);
 	ids = (uint64 *) ARR_DATA_PTR(writer->members);
 	for (uint32 i = 0; i < placeholder->count; i++)
 		ids[i] = sortable_id(writer->group->buildings[members[i]].id);
@@ -345,17 +318,6 @@ writer_members(row_writer *writer, const ty_placeholder *placeholder)
 	for (uint32 i = 0; i < placeholder->count; i++)
 		ids[i] = (uint64) id_of_sortable(ids[i]);
 	return PointerGetDatum(writer->members);
-}
-
-/* Rows start aligned; the bytes between them are zero, so that equal arrays are the same bytes. */
-static void
-writer_append(row_writer *writer, HeapTuple row)
-{
-	char *at = (char *) writer->array + writer->used;
-
-	memcpy(at, row->t_data, row->t_len);
-	memset(at + row->t_len, 0, MAXALIGN(row->t_len) - row->t_len);
-	writer->used += MAXALIGN(row->t_len);
 }
 
 /* An outline is new, a rectangle is overwritten by the next one. */
@@ -373,39 +335,31 @@ static void
 writer_add(row_writer *writer, const ty_placeholder *placeholder)
 {
 	const ty_state *s = writer->group;
-	bool drawn = placeholder->area > 0;
-	HeapTuple row;
+	Datum *values = writer->rows.values;
+	Datum polygon = placeholder->area > 0 ? writer_polygon(writer, placeholder) : (Datum) 0;
 
-	writer->values[FIELD_ID] = Int64GetDatum(s->buildings[placeholder->representative].id);
-	writer->nulls[FIELD_GEOM] = !drawn;
-	writer->values[FIELD_GEOM] = drawn ? writer_polygon(writer, placeholder) : (Datum) 0;
-	writer->values[FIELD_MEMBER_COUNT] = Int32GetDatum((int32) placeholder->count);
-	writer->values[FIELD_MEMBERS] = writer_members(writer, placeholder);
-	writer->values[FIELD_AREA] = Float8GetDatum(placeholder->area);
-	writer->values[FIELD_WIDTH] = Float8GetDatum(placeholder->width);
-	writer->values[FIELD_LENGTH] = Float8GetDatum(placeholder->length);
-	writer->values[FIELD_ORIENTATION] = Float8GetDatum(ty_orientation_degrees(placeholder->ux, placeholder->uy));
+	ty_placeholder_values(placeholder, s->buildings[placeholder->representative].id, polygon, values,
+						  writer->rows.nulls);
+	values[TY_PLACEHOLDER_MEMBERS] = writer_members(writer, placeholder);
+	writer->rows.nulls[TY_PLACEHOLDER_MEMBERS] = false;
 	if (writer->parameters != NULL)
-		writer->values[FIELD_SITE] = writer_site(writer, placeholder);
-	row = heap_form_tuple(writer->shape, writer->values, writer->nulls);
-	writer_append(writer, row);
-	heap_freetuple(row);
-	if (drawn && placeholder->outlined)
-		pfree(DatumGetPointer(writer->values[FIELD_GEOM]));
+	{
+		values[FIELD_SITE] = writer_site(writer, placeholder);
+		writer->rows.nulls[FIELD_SITE] = false;
+	}
+	ty_row_array_add(&writer->rows);
+	if (polygon != (Datum) 0 && placeholder->outlined)
+		pfree(DatumGetPointer(polygon));
 }
 
 static Datum
 writer_end(row_writer *writer)
 {
-	ReleaseTupleDesc(writer->shape);
 	pfree(writer->polygon);
 	pfree(writer->members);
 	pfree(writer->site);
 	pfree(writer->unused);
-	pfree(writer->values);
-	pfree(writer->nulls);
-	SET_VARSIZE(writer->array, writer->used);
-	return PointerGetDatum(writer->array);
+	return ty_row_array_end(&writer->rows);
 }
 
 static Datum
@@ -444,6 +398,20 @@ Datum
 typify_barred_transition(PG_FUNCTION_ARGS)
 {
 	return add_row(fcinfo, &barred_layout);
+}
+
+PG_FUNCTION_INFO_V1(typify_hierarchy_transition);
+Datum
+typify_hierarchy_transition(PG_FUNCTION_ARGS)
+{
+	return add_row(fcinfo, &hierarchy_layout);
+}
+
+PG_FUNCTION_INFO_V1(typify_barred_hierarchy_transition);
+Datum
+typify_barred_hierarchy_transition(PG_FUNCTION_ARGS)
+{
+	return add_row(fcinfo, &barred_hierarchy_layout);
 }
 
 /* what is looked for among the arguments of the workers' aggregate */
@@ -587,4 +555,19 @@ typify_sites_final(PG_FUNCTION_ARGS)
 	array = placeholder_array(fcinfo, s, &result, &parameters);
 	ty_result_free(&ty_backend_environment, &result);
 	PG_RETURN_DATUM(array);
+}
+
+PG_FUNCTION_INFO_V1(typify_hierarchy_final);
+Datum
+typify_hierarchy_final(PG_FUNCTION_ARGS)
+{
+	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
+	ty_input input;
+
+	aggregate_context(fcinfo);
+	if (s == NULL)
+		PG_RETURN_NULL();
+	check_ids(s);
+	input = input_of(s);
+	PG_RETURN_DATUM(ty_node_array(fcinfo, &input, &s->parameters));
 }

@@ -40,6 +40,12 @@ find_constancy(ty_call *call, FunctionCallInfo fcinfo, int first)
 	call->constancy = TY_PER_QUERY;
 	for (int i = 0; i < call->given; i++)
 	{
+		if (i == SCALE && !call->with_scale)
+		{
+			call->constant[i] = true;
+			continue;
+		}
+
 		Node *expression = argument_expression(fcinfo, first + i);
 		ty_constancy constancy = expression == NULL ? TY_PER_ROW : ty_constancy_of(expression, statement);
 
@@ -49,7 +55,7 @@ find_constancy(ty_call *call, FunctionCallInfo fcinfo, int first)
 }
 
 ty_call *
-ty_call_of(FunctionCallInfo fcinfo, int first, int given, int geometry)
+ty_call_of(FunctionCallInfo fcinfo, int first, int given, int geometry, bool with_scale)
 {
 	FmgrInfo *function = fcinfo->flinfo;
 	ty_call *call = function->fn_extra;
@@ -58,6 +64,7 @@ ty_call_of(FunctionCallInfo fcinfo, int first, int given, int geometry)
 		return call;
 	call = MemoryContextAllocZero(function->fn_mcxt, sizeof(ty_call));
 	call->context = call->group_context = function->fn_mcxt;
+	call->with_scale = with_scale;
 	call->given = Min(PG_NARGS() - first, given);
 	find_constancy(call, fcinfo, first);
 	ty_srid_cache_begin(&call->srids, function->fn_oid, geometry, function->fn_mcxt);
@@ -131,16 +138,19 @@ static ty_parameters
 parse(ty_call *call, const NullableDatum *arguments)
 {
 	bool options_given = is_given(call, arguments, OPTIONS);
+	Datum options = options_given ? arguments[OPTIONS].value : (Datum) 0;
+	double s_u = call->given > S_U ? DatumGetFloat8(arguments[S_U].value) : 0;
 	ty_barrier_hash barriers = hash_of_barriers_argument(call, arguments);
 	ty_parameters parameters;
 
-	if (arguments[SCALE].isnull)
+	if (call->with_scale && arguments[SCALE].isnull)
 		ty_refuse_null("scale");
 	if (call->given > S_U && arguments[S_U].isnull)
 		ty_refuse_null("s_u");
-	ty_resolve_parameters(DatumGetFloat8(arguments[SCALE].value),
-						  call->given > S_U ? DatumGetFloat8(arguments[S_U].value) : 0,
-						  options_given ? arguments[OPTIONS].value : (Datum) 0, !options_given, &parameters);
+	if (call->with_scale)
+		ty_resolve_parameters(DatumGetFloat8(arguments[SCALE].value), s_u, options, !options_given, &parameters);
+	else
+		ty_resolve_hierarchy_parameters(s_u, options, !options_given, &parameters);
 	if (ty_no_barriers(barriers))
 		return parameters;
 	if (!ty_no_barriers(parameters.barriers))

@@ -21,6 +21,7 @@ typedef struct ty_call
 	ty_constancy constancy;			  /* the least of the arguments' */
 	bool constant[TY_CALL_ARGUMENTS]; /* for the query */
 	int given;						  /* 1 .. TY_CALL_ARGUMENTS */
+	bool with_scale;				  /* false: a hierarchy's, whose first argument is not looked at */
 	bool parsed;
 	NullableDatum arguments[TY_CALL_ARGUMENTS]; /* what parameters were parsed from; unused where constant */
 	ty_parameters parameters;
@@ -32,9 +33,10 @@ typedef struct ty_call
 
 /*
  * The call of an aggregate's transition function or of a window function, made when asked for the first time.
- * The parameters, at most `given` of them, start at argument `first`; the geometry is argument `geometry`.
+ * The parameters, at most `given` of them, start at argument `first`, the scale's place, also where there is none; the
+ * geometry is argument `geometry`.
  */
-extern ty_call *ty_call_of(FunctionCallInfo fcinfo, int first, int given, int geometry);
+extern ty_call *ty_call_of(FunctionCallInfo fcinfo, int first, int given, int geometry, bool with_scale);
 
 /*
  * The parameters for a row, and in call->barriers.current the barriers that go with them; arguments holds call->given

@@ -58,6 +58,25 @@ typify_count(PG_FUNCTION_ARGS)
 	PG_RETURN_INT64((int64) ty_count((size_t) n, &parameters, 1));
 }
 
+PG_FUNCTION_INFO_V1(typify_scale_below);
+Datum
+typify_scale_below(PG_FUNCTION_ARGS)
+{
+	ty_parameters parameters;
+	bool options_null = PG_ARGISNULL(2);
+	int64 n, count;
+
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
+		PG_RETURN_NULL();
+	n = PG_GETARG_INT64(0);
+	count = PG_GETARG_INT64(1);
+	ty_resolve_hierarchy_parameters(0, options_null ? (Datum) 0 : PG_GETARG_DATUM(2), options_null, &parameters);
+	if (n < 0 || count < 0)
+		ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				errmsg("%s is %lld, it must be at least 0", n < 0 ? "n" : "count", (long long) (n < 0 ? n : count)));
+	PG_RETURN_FLOAT8(ty_scale_below((size_t) n, (size_t) count, &parameters));
+}
+
 PG_FUNCTION_INFO_V1(typify_area_factor);
 Datum
 typify_area_factor(PG_FUNCTION_ARGS)

@@ -294,8 +294,9 @@ ty_barriers_of_options(Datum composite)
 	return options.value[OPTION_BARRIERS];
 }
 
-void
-ty_resolve_parameters(double scale, double s_u, Datum composite, bool composite_null, ty_parameters *p)
+/* All but the scale. */
+static void
+resolve_options(double s_u, Datum composite, bool composite_null, ty_parameters *p)
 {
 	option_values options;
 
@@ -309,18 +310,51 @@ ty_resolve_parameters(double scale, double s_u, Datum composite, bool composite_
 	}
 	memset(p, 0, sizeof(*p));
 	apply_options(&options, p);
+	if (!(s_u >= 0 && s_u <= 1))
+		ty_refuse_value("s_u", s_u, "between 0 and 1");
+	p->s_u = s_u;
+}
+
+void
+ty_resolve_parameters(double scale, double s_u, Datum composite, bool composite_null, ty_parameters *p)
+{
+	resolve_options(s_u, composite, composite_null, p);
 	if (!isfinite(scale) || scale < p->source_scale)
 		ty_refuse_value("scale", scale,
 						psprintf("a finite number of at least source_scale (%s)", ty_number_text(p->source_scale)));
-	if (!(s_u >= 0 && s_u <= 1))
-		ty_refuse_value("s_u", s_u, "between 0 and 1");
 	p->scale = scale;
-	p->s_u = s_u;
 	if (!isfinite(ty_area_factor(p)))
 		ereport(ERROR, errcode(ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE),
 				errmsg("the area factor of scale %s with psi %s and source_scale %s is out of range",
 					   ty_number_text(scale), ty_number_text(p->psi), ty_number_text(p->source_scale)),
 				errhint("Use a smaller scale denominator, or a psi between 0 and 1."));
+}
+
+static void
+refuse_for_hierarchy(bool given, const char *option, const char *hint)
+{
+	if (given)
+		ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				errmsg("a hierarchy holds all scales, but %s makes it depend on one", option), errhint("%s", hint));
+}
+
+void
+ty_resolve_hierarchy_parameters(double s_u, Datum composite, bool composite_null, ty_parameters *p)
+{
+	resolve_options(s_u, composite, composite_null, p);
+	p->scale = p->source_scale;
+	refuse_for_hierarchy(p->count > 0, "count", "Leave it out: typify_at takes the scale, and exponent says how many.");
+	refuse_for_hierarchy(p->min_distance > 0, "min_distance", "Leave it out, or use typify_create_scale.");
+	refuse_for_hierarchy(p->count_rule == TY_BLACK_WHITE, "count_rule => 'black_white'",
+						 "Leave it out, or use typify_create_scale; exponent says how many.");
+	refuse_for_hierarchy(p->keep_area > 0, "keep_area",
+						 "Leave it out, or give what is to be kept importance => 'Infinity'.");
+	refuse_for_hierarchy(p->min_area > 0, "min_area", "Leave it out, or pass a view without such buildings.");
+	refuse_for_hierarchy(p->alignment > 0, "alignment", "Leave it out, or use typify_create_scale.");
+	if (ty_wants_outline(p))
+		ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				errmsg("a hierarchy keeps no outlines, so that shape must be rectangle or square"),
+				errhint("Leave shape out, or use typify_create_scale."));
 }
 
 bool

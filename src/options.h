@@ -17,6 +17,12 @@
 extern void ty_resolve_parameters(double scale, double s_u, Datum options, bool options_null,
 								  ty_parameters *parameters);
 
+/*
+ * The same for a hierarchy, which is one for all scales: the scale becomes source_scale, and options that depend on it
+ * are refused.
+ */
+extern void ty_resolve_hierarchy_parameters(double s_u, Datum options, bool options_null, ty_parameters *parameters);
+
 /* The lines of options whose parameters have barriers. */
 extern Datum ty_barriers_of_options(Datum options);
 

@@ -54,17 +54,36 @@ ty_define_progress(void)
 	ty_reserve_settings("typify");
 }
 
+/* The backend's environment, with notices where the user asks for them. */
+static ty_environment
+watched_environment(report *r, size_t n)
+{
+	ty_environment env = ty_backend_environment;
+
+	*r = (report){.buildings = n};
+	if (show_progress)
+	{
+		r->begin = GetCurrentTimestamp();
+		env.progress = show;
+		env.context = r;
+	}
+	return env;
+}
+
 void
 ty_typify_group(const ty_input *input, const ty_parameters *p, ty_result *result)
 {
-	ty_environment env = ty_backend_environment;
-	report r = {.buildings = input->n};
+	report r;
+	ty_environment env = watched_environment(&r, input->n);
 
-	if (show_progress)
-	{
-		r.begin = GetCurrentTimestamp();
-		env.progress = show;
-		env.context = &r;
-	}
 	ty_check_status(ty_typify(&env, input, p, result));
+}
+
+void
+ty_build_hierarchy(const ty_input *input, const ty_parameters *p, ty_hierarchy *h)
+{
+	report r;
+	ty_environment env = watched_environment(&r, input->n);
+
+	ty_check_status(ty_hierarchy_build(&env, input, p, h));
 }

@@ -207,7 +207,7 @@ typify_cluster(PG_FUNCTION_ARGS)
 	p = WinGetPartitionLocalMemory(window, sizeof(partition));
 	if (!p->done)
 	{
-		ty_call *call = ty_call_of(fcinfo, PARAMETERS, PARAMETER_COUNT, GEOMETRY);
+		ty_call *call = ty_call_of(fcinfo, PARAMETERS, PARAMETER_COUNT, GEOMETRY, true);
 
 		call->group_context = GetMemoryChunkContext(p);
 		p->cluster = cluster_partition(call, window, GetMemoryChunkContext(p));

@@ -27,7 +27,8 @@
  * Liechtenstein and Leipzig. Lengths are multiples of the smaller building's side, the square root of its area.
  */
 #define REACH 4.5			   /* neighbours' centres are no farther apart: houses in gardens have 2 to 3.5 */
-#define BESIDE 2.25			   /* a small building that is looked past is no farther: half the reach */
+#define BESIDE 2.25			   /* a small building that is looked past is no farther, half the reach ... */
+#define BESIDE_SIZE 3.0		   /* ... and the building is so many times as large */
 #define SIZE_RATIO 2.0		   /* of areas of neighbours */
 #define ORIENTATION 0.939	   /* cosine: 20 degrees between neighbours */
 #define SQUARE_RATIO 0.5	   /* of two ratios multiplied: from here on the longer side may be either */
@@ -48,6 +49,8 @@
 #define SPACING_WEIGHT 0.4 /* times ratio - 1 */
 #define SIZE_WEIGHT 0.2	   /* times ratio - 1 */
 #define AXIS_WEIGHT 1.0	   /* times sine */
+
+#define AHEAD 16 /* buildings and stars that are fetched before they are needed */
 
 typedef struct neighbour
 {
@@ -81,6 +84,7 @@ typedef struct search
 	const ty_environment *env;
 	const ty_mesh *mesh;
 	const ty_trait *trait;
+	ty_parting parting;
 	links *choice; /* [n] the neighbours of the triple that each building chose */
 	links *link;   /* [n] */
 	growth *growths;
@@ -160,7 +164,7 @@ is_beside(const ty_trait *of, const ty_trait *small)
 {
 	double x = (double) small->place.x - of->place.x, y = (double) small->place.y - of->place.y;
 
-	return small->area < of->area && x * x + y * y <= BESIDE * BESIDE * of->area;
+	return BESIDE_SIZE * small->area < of->area && x * x + y * y <= BESIDE * BESIDE * of->area;
 }
 
 /* Adds what is beside the small building `small` to v's neighbours. */
@@ -241,6 +245,8 @@ choose_triples(search *s)
 
 		if (ty_interrupted_at(s->env, v))
 			return TY_INTERRUPTED;
+		if (v + AHEAD < s->mesh->vertices && s->mesh->vertex[v + AHEAD].edge != TY_NONE)
+			__builtin_prefetch(&s->mesh->triangles[ty_triangle_of(s->mesh->vertex[v + AHEAD].edge)]);
 		s->choice[v] = s->link[v] = (links){{TY_NONE, TY_NONE}};
 		find_neighbours(s, v, &near);
 		for (size_t i = 1; i < near.count; i++)
@@ -279,6 +285,13 @@ join(search *s, uint32_t v, uint32_t w)
 	add_link(s, w, v);
 }
 
+/* Asked of links only, which are few. */
+static bool
+is_parted(const search *s, uint32_t v, uint32_t w)
+{
+	return s->parting.parts != NULL && s->parting.parts(s->parting.context, s->trait[v].place, s->trait[w].place);
+}
+
 static void
 link_mutual(search *s)
 {
@@ -287,7 +300,7 @@ link_mutual(search *s)
 		{
 			uint32_t w = s->choice[v].to[i];
 
-			if (w != TY_NONE && holds(s->choice[w], v))
+			if (w != TY_NONE && holds(s->choice[w], v) && !is_parted(s, v, w))
 				add_link(s, v, w);
 		}
 }
@@ -315,8 +328,8 @@ fits(const search *s, uint32_t v, uint32_t w)
 	neighbour to_v, on;
 
 	if (s->link[w].to[0] == TY_NONE)
-		return true;
-	if (s->link[w].to[1] != TY_NONE || s->link[w].to[0] == v)
+		return !is_parted(s, v, w);
+	if (s->link[w].to[1] != TY_NONE || s->link[w].to[0] == v || is_parted(s, v, w))
 		return false;
 	to_v = neighbour_of(s, w, v);
 	on = neighbour_of(s, w, s->link[w].to[0]);
@@ -569,9 +582,9 @@ allocate_rows(const ty_environment *env, size_t n, ty_rows *rows)
 }
 
 ty_status
-ty_rows_detect(const ty_environment *env, const ty_mesh *mesh, const ty_trait *trait, ty_rows *rows)
+ty_rows_detect(const ty_environment *env, const ty_mesh *mesh, const ty_trait *trait, ty_parting parting, ty_rows *rows)
 {
-	search s = {.env = env, .mesh = mesh, .trait = trait};
+	search s = {.env = env, .mesh = mesh, .trait = trait, .parting = parting};
 	ty_status status = allocate_rows(env, mesh->vertices, rows);
 
 	s.choice = ty_allocate_array(env, mesh->vertices, sizeof *s.choice);
@@ -605,8 +618,6 @@ ty_rows_free(const ty_environment *env, ty_rows *rows)
 }
 
 /* ---- a group by itself ---- */
-
-#define AHEAD 16 /* buildings fetched before they are needed: they lie in any order */
 
 void
 ty_traits(const ty_building *buildings, const uint32_t *order, const ty_mesh *mesh, const ty_grid *grid,
@@ -696,7 +707,7 @@ ty_rows_of_group(const ty_environment *env, const ty_building *buildings, size_t
 	if (status == TY_OK)
 	{
 		ty_traits(buildings, order, &g.mesh, &grid, g.trait);
-		status = ty_rows_detect(env, &g.mesh, g.trait, rows);
+		status = ty_rows_detect(env, &g.mesh, g.trait, (ty_parting){0}, rows);
 	}
 	free_ground(env, &g);
 	return status;

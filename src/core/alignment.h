@@ -34,11 +34,19 @@ typedef struct ty_rows
 	ty_span *span; /* [n] by rank. Rows are numbered by the smallest rank among their members. Merges change spans. */
 } ty_rows;
 
+/* What no row leads across: whether something lies between two places. */
+typedef struct ty_parting
+{
+	bool (*parts)(const void *context, ty_position a, ty_position b); /* the same for b and a; NULL: nothing does */
+	const void *context;
+} ty_parting;
+
 /*
  * Finds the rows among the vertices of a mesh that nothing has been merged in yet. trait: [mesh->vertices] by rank.
  * The result's arrays are the caller's, to be freed with ty_rows_free. O(vertices log vertices).
  */
-ty_status ty_rows_detect(const ty_environment *env, const ty_mesh *mesh, const ty_trait *trait, ty_rows *rows);
+ty_status ty_rows_detect(const ty_environment *env, const ty_mesh *mesh, const ty_trait *trait, ty_parting parting,
+						 ty_rows *rows);
 void ty_rows_free(const ty_environment *env, ty_rows *rows);
 
 /* What the buildings that the vertices of a mesh stand for are like; order[rank] = index of the building. */
@@ -81,17 +89,20 @@ typedef struct ty_drawn_rows
 {
 	const ty_rows *rows;
 	const ty_building *buildings;
-	const uint32_t *order;	/* [n] building by rank */
-	const uint32_t *label;	/* [n] placeholder by rank */
-	const uint32_t *keeper; /* [placeholders] the rank that each vertex went on under */
+	const uint32_t *order;					 /* [n] building by rank */
+	const uint32_t *label;					 /* [n] placeholder by rank */
+	const uint32_t *keeper;					 /* [placeholders] the rank that each vertex went on under */
+	const struct ty_barrier_lines *barriers; /* on the ground, that nobody is laid across; NULL: none */
 } ty_drawn_rows;
 
 struct ty_placeholder;
+struct ty_barrier_lines;
 
 /*
  * Lays out the placeholders of each row, once they have places: on the line through the means of their members in the
  * row, at equal spacing along it, the ends at their means; nobody farther from its own mean than four of these. Rows
- * whose placeholders are all single buildings stay as they are.
+ * whose placeholders are all single buildings stay as they are. A row is laid out in pieces where it comes to a kept
+ * building, or where a barrier lies between two placeholders or between one and the mean of its members in the row.
  */
 ty_status ty_rows_lay_out(const ty_environment *env, const ty_drawn_rows *drawn, struct ty_placeholder *placeholders);
 

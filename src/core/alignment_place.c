@@ -6,6 +6,7 @@
  * which stands for the mean of its members in the row; the ends stay where they are.
  */
 #include "alignment.h"
+#include "barrier.h"
 #include "group.h"
 
 #include <math.h>
@@ -95,6 +96,30 @@ end_piece(piece *p, ty_placeholder *placeholders)
 	p->count = p->merged = 0;
 }
 
+static bool
+is_barred(const ty_drawn_rows *drawn, ty_point a, ty_point b)
+{
+	return drawn->barriers != NULL && ty_barrier_lines_cross(drawn->barriers, a, b);
+}
+
+/* Adds a placeholder, for the mean of its members in the row, to a piece. */
+static void
+add_to_piece(const ty_drawn_rows *drawn, uint32_t label, ty_point mean, piece *p, ty_placeholder *placeholders)
+{
+	ty_placeholder *placeholder = &placeholders[label];
+
+	if (p->count > 0 && is_barred(drawn, p->mean[p->count - 1], mean))
+		end_piece(p, placeholders);
+	if (is_barred(drawn, (ty_point){placeholder->x, placeholder->y}, mean))
+	{
+		end_piece(p, placeholders);
+		return;
+	}
+	p->label[p->count] = label;
+	p->mean[p->count++] = mean;
+	p->merged += placeholder->count > 1;
+}
+
 static void
 lay_row(const ty_drawn_rows *drawn, uint32_t row, piece *p, ty_placeholder *placeholders)
 {
@@ -113,9 +138,7 @@ lay_row(const ty_drawn_rows *drawn, uint32_t row, piece *p, ty_placeholder *plac
 			end_piece(p, placeholders);
 			continue;
 		}
-		p->label[p->count] = label;
-		p->mean[p->count++] = mean_of_members(drawn, member, span.first, span.last);
-		p->merged += placeholders[label].count > 1;
+		add_to_piece(drawn, label, mean_of_members(drawn, member, span.first, span.last), p, placeholders);
 		i = span.last;
 	}
 	end_piece(p, placeholders);

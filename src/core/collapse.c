@@ -6,13 +6,16 @@
 /* ---- merging ---- */
 
 void
-ty_record(ty_run *run, uint32_t gone, double cost)
+ty_record(ty_run *run, uint32_t gone, ty_position to, double cost)
 {
 	ty_sequence *s = run->sequence;
 
 	s->gone[s->count] = gone;
 	if (s->cost != NULL)
+	{
 		s->cost[s->count] = cost;
+		s->place[s->count] = to;
+	}
 	s->count++;
 }
 
@@ -96,30 +99,35 @@ merge(ty_run *run, uint32_t kept, uint32_t gone, double cost)
 	ty_position to = ty_merged_place(run, kept, gone);
 
 	ty_join(run, kept, gone, run->vertex[kept].position, to);
-	ty_record(run, gone, cost);
+	ty_record(run, gone, to, cost);
 	return to;
 }
 
-/* Room for so many merges in all; what is there stays. */
+/* Makes room in *array, NULL at first, for so many merges; what is there stays. */
+static bool
+reserve(const ty_environment *env, void **array, size_t merges, size_t size)
+{
+	void *grown =
+		*array == NULL ? ty_allocate_array(env, merges, size) : ty_reallocate_array(env, *array, merges, size);
+
+	if (grown != NULL)
+		*array = grown;
+	return grown != NULL;
+}
+
 static ty_status
 reserve_sequence(ty_run *run, size_t merges)
 {
 	ty_sequence *s = run->sequence;
-	uint32_t *gone = s->gone == NULL ? ty_allocate_array(run->env, merges, sizeof *gone)
-									 : ty_reallocate_array(run->env, s->gone, merges, sizeof *gone);
-	double *cost;
+	void *gone = s->gone, *cost = s->cost, *place = s->place;
+	bool there = reserve(run->env, &gone, merges, sizeof *s->gone) &&
+				 (!run->with_cost || (reserve(run->env, &cost, merges, sizeof *s->cost) &&
+									  reserve(run->env, &place, merges, sizeof *s->place)));
 
-	if (gone == NULL)
-		return TY_NO_MEMORY;
 	s->gone = gone;
-	if (!run->with_cost)
-		return TY_OK;
-	cost = s->cost == NULL ? ty_allocate_array(run->env, merges, sizeof *cost)
-						   : ty_reallocate_array(run->env, s->cost, merges, sizeof *cost);
-	if (cost == NULL)
-		return TY_NO_MEMORY;
 	s->cost = cost;
-	return TY_OK;
+	s->place = place;
+	return there ? TY_OK : TY_NO_MEMORY;
 }
 
 /* Which vertex went on, of every merge. */
@@ -518,6 +526,7 @@ ty_sequence_free(const ty_environment *env, ty_sequence *sequence)
 	ty_release(env, sequence->kept);
 	ty_release(env, sequence->gone);
 	ty_release(env, sequence->cost);
+	ty_release(env, sequence->place);
 	*sequence = (ty_sequence){0};
 }
 

@@ -20,10 +20,11 @@ typedef struct ty_stop
 
 typedef struct ty_sequence
 {
-	size_t count;	/* merges; where there are none the arrays may be NULL */
-	uint32_t *kept; /* [count] smaller rank of the two */
-	uint32_t *gone; /* [count] larger rank; every rank is gone at most once */
-	double *cost;	/* [count] or NULL unless asked for */
+	size_t count;		/* merges; where there are none the arrays may be NULL */
+	uint32_t *kept;		/* [count] smaller rank of the two */
+	uint32_t *gone;		/* [count] larger rank; every rank is gone at most once */
+	double *cost;		/* [count] or NULL unless asked for */
+	ty_position *place; /* [count] where the merged vertex stands; goes with cost */
 } ty_sequence;
 
 /* For tests: called after every merge with the mesh as it then is, or NULL while two vertices share a place. */

@@ -233,8 +233,10 @@ enter_batch(ty_run *run, const batch *b)
 
 	for (size_t i = 0; i < b->count; i++)
 	{
-		ty_join(run, b->kept[i], b->gone[i], b->to[i], run->vertex[b->kept[i]].position);
-		ty_record(run, b->gone[i], b->cost[i]);
+		ty_position to = run->vertex[b->kept[i]].position;
+
+		ty_join(run, b->kept[i], b->gone[i], b->to[i], to);
+		ty_record(run, b->gone[i], to, b->cost[i]);
 		ty_retire(run, b->kept[i], b->gone[i]);
 		ty_show(run, i + 1 < b->count ? NULL : &run->mesh);
 	}

@@ -128,6 +128,7 @@ static inline __attribute__((always_inline)) void
 fetch_stars(const ty_run *run, const uint32_t *v, size_t count, bool to_collapse)
 {
 	const ty_triangle *triangles = run->mesh.triangles;
+	const ty_span *span = run->rows == NULL ? NULL : run->rows->span;
 	uint32_t first[ABREAST], at[ABREAST], outer[ABREAST];
 	size_t walks = 0;
 
@@ -158,6 +159,8 @@ fetch_stars(const ty_run *run, const uint32_t *v, size_t count, bool to_collapse
 
 			if (w != TY_GHOST)
 				__builtin_prefetch(&run->vertex[w]);
+			if (w != TY_GHOST && span != NULL && !to_collapse)
+				__builtin_prefetch(&span[w]);
 			if (to_collapse)
 			{
 				uint32_t apex = ty_origin(&run->mesh, ty_previous_in_triangle(outer[i])); /* fetched one step ago */
@@ -197,7 +200,7 @@ look_again(ty_run *run, uint32_t b, lookout *looked)
 	fetch_stars(run, looked->vertex, looked->count, false);
 	for (size_t i = 0; i < looked->count && status == TY_OK; i++)
 	{
-		ty_edge least = ty_least_edge(run, looked->vertex[i]);
+		ty_edge least = ty_next_edge(run, looked->vertex[i], ty_waiting_floor(run, looked->vertex[i]));
 
 		status = ty_queue_settle(run, least);
 		if (least.other == TY_NONE || !ty_is_near(&run->queue, least))
@@ -273,7 +276,7 @@ limit_of_part(const ty_run *run, uint32_t b)
 			uint32_t v = queue->chunk[c].vertex[i];
 
 			if (met++ % every == 0 && is_waiting(run, v, b))
-				sample[samples++] = ty_least_edge(run, v);
+				sample[samples++] = ty_next_edge(run, v, ty_waiting_floor(run, v));
 		}
 	if (samples == 0)
 		return end;
@@ -300,6 +303,7 @@ ty_bucket_drain(ty_run *run, bool *found)
 	if (!*found)
 		return TY_OK;
 	queue->next = b;
+	queue->passed = queue->limit;
 	queue->limit = queue->bucket[b].count > GIANT(run->n) ? limit_of_part(run, b) : end_of_bucket(queue, b);
 	queue->sorted_count = 0;
 	bucket = queue->bucket[b];

@@ -161,7 +161,7 @@ merge_pair(few *f, uint32_t a, uint32_t b)
 
 	ty_join(run, a, b, run->vertex[a].position, to);
 	run->vertex[a].position = to;
-	ty_record(run, b, f->cost[a]);
+	ty_record(run, b, to, f->cost[a]);
 	ty_retire(run, a, b);
 	f->live &= ~bit_of(b);
 	for (uint64_t set = f->live; set != 0;)

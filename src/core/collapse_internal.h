@@ -44,6 +44,7 @@ typedef struct ty_queue
 	ty_edge *heap;
 	size_t heap_count, heap_capacity;
 	ty_edge limit;	   /* entries up to this one are sorted or in the heap, all others in buckets */
+	ty_edge passed;	   /* the limit before: entries in buckets are above it */
 	ty_bucket *bucket; /* [buckets] those before `next` are empty */
 	uint32_t buckets, next;
 	int shift; /* a key's bits below a bucket's number */
@@ -135,8 +136,12 @@ ty_status ty_queue_least(ty_run *run, ty_edge *least, uint32_t *h);
 void ty_queue_part(ty_run *run, uint32_t a, uint32_t b);
 /* whether a and b have been taken out as partners */
 bool ty_queue_partners(const ty_run *run, uint32_t a, uint32_t b);
-/* the least edge at v; cost INFINITY when there is none */
+/* the least edge at v, barriers aside; cost INFINITY when there is none */
 ty_edge ty_least_edge(const ty_run *run, uint32_t v);
+/* What takes the place of an entry of v: with influences the least of its edges after that, else the least of all. */
+ty_edge ty_next_edge(const ty_run *run, uint32_t v, ty_edge above);
+/* what comes before the entry of a vertex in a bucket */
+ty_edge ty_waiting_floor(const ty_run *run, uint32_t v);
 /* the mesh's edge_made: covers an edge between two vertices that keep their keys */
 void ty_cover_edge(void *context, uint32_t a, uint32_t b);
 
@@ -175,7 +180,7 @@ ty_position ty_merged_place(const ty_run *run, uint32_t a, uint32_t b);
 /* Adds gone to kept, which comes from `former` to their merged place. */
 void ty_join(ty_run *run, uint32_t kept, uint32_t gone, ty_position former, ty_position to);
 /* Records a merge that has been joined. */
-void ty_record(ty_run *run, uint32_t gone, double cost);
+void ty_record(ty_run *run, uint32_t gone, ty_position to, double cost);
 /* Remembers, once gone is out of the mesh, into which vertex it went (in its size, until there is room for a list). */
 void ty_retire(ty_run *run, uint32_t kept, uint32_t gone);
 /* What is left to do once a merged vertex is in the mesh. */

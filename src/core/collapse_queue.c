@@ -12,6 +12,9 @@
  * another: one that differs from the key counts no longer. (One that equals it by chance does no harm: it is
  * checked like any other.)
  *
+ * Whether a barrier is in the way of an edge is asked when its entry is the least of all. If so, the next edge of its
+ * vertex takes its place: for the ones before it there are entries of their other ends.
+ *
  * Entries of least cost are in a heap, all others wait in buckets by their keys, as bounds (collapse_bucket.c).
  */
 #include "collapse_internal.h"
@@ -212,7 +215,7 @@ least_plain_edge(const ty_run *run, uint32_t v)
 }
 
 static __attribute__((noinline)) ty_edge
-least_influenced_edge(const ty_run *run, uint32_t v)
+least_influenced_edge(const ty_run *run, uint32_t v, ty_edge above)
 {
 	ty_edge least = {INFINITY, v, TY_NONE};
 	uint32_t first = run->vertex[v].edge, h = first;
@@ -228,8 +231,7 @@ least_influenced_edge(const ty_run *run, uint32_t v)
 			if (!ty_before(e, least)) /* then influences, which only lengthen it, need not be asked */
 				continue;
 			e.cost = ty_influenced_cost(run, v, w, e.cost);
-
-			if (ty_before(e, least) && !ty_is_barred(run, v, w))
+			if (ty_before(e, least) && ty_before(above, e))
 				least = e;
 		}
 	} while ((h = ty_next_around(&run->mesh, h)) != first);
@@ -237,11 +239,29 @@ least_influenced_edge(const ty_run *run, uint32_t v)
 }
 
 ty_edge
-ty_least_edge(const ty_run *run, uint32_t v)
+ty_next_edge(const ty_run *run, uint32_t v, ty_edge above)
 {
 	if (run->mesh.live < 2)
 		return (ty_edge){INFINITY, v, TY_NONE};
-	return run->influence == NULL ? least_plain_edge(run, v) : least_influenced_edge(run, v);
+	return run->influence == NULL ? least_plain_edge(run, v) : least_influenced_edge(run, v, above);
+}
+
+ty_edge
+ty_least_edge(const ty_run *run, uint32_t v)
+{
+	return ty_next_edge(run, v, (ty_edge){0, v, TY_NONE});
+}
+
+/* Not the key's bound alone: then an edge of a cost like its key's, once found barred, would come again and again. */
+ty_edge
+ty_waiting_floor(const ty_run *run, uint32_t v)
+{
+	ty_edge passed = run->queue.passed, entry = {0, v, TY_NONE};
+	float cost;
+
+	memcpy(&cost, &run->queue.key[v], sizeof cost);
+	entry.cost = cost;
+	return ty_before(entry, passed) ? passed : entry;
 }
 
 /* An end whose key is as large as the edge's covers it only perhaps: keys are rounded. */
@@ -260,7 +280,10 @@ ty_cover_edge(void *context, uint32_t a, uint32_t b)
 
 /* ---- the first entries: every edge is covered by its end of smaller rank ---- */
 
-/* Keys are lower bounds: what influences make of an edge is asked when its turn comes. */
+/*
+ * Keys are lower bounds: what importances and barriers make of an edge is asked when its turn comes. What rows make of
+ * it is asked here, where their spans are near in memory.
+ */
 static ty_status
 fill_buckets(ty_run *run)
 {
@@ -277,7 +300,7 @@ fill_buckets(ty_run *run)
 		if (a == TY_GHOST || b == TY_GHOST)
 			continue;
 		/* every edge comes twice; to skip one of them would be guessed wrong half the time */
-		key = key_of_cost(ty_plain_cost(run, a, b));
+		key = key_of_cost(run->rows == NULL || a > b ? ty_plain_cost(run, a, b) : edge_cost(run, a, b));
 		key = a < b ? key : TY_NO_KEY;
 		queue->key[a] = key < queue->key[a] ? key : queue->key[a];
 	}
@@ -303,7 +326,7 @@ fill_heap(ty_run *run)
 		{
 			ty_edge e = {edge_cost(run, a, b), a, b};
 
-			if (ty_before(e, queue->heap[a]) && !ty_is_barred(run, a, b))
+			if (ty_before(e, queue->heap[a]))
 				queue->heap[a] = e;
 		}
 	}
@@ -391,7 +414,7 @@ ty_queue_sort(ty_run *run, double low)
 	}
 }
 
-/* the half-edge of an edge, if the mesh still has it at its cost; else TY_NONE */
+/* the half-edge of an edge, if the mesh still has it at its cost and no barrier is in its way; else TY_NONE */
 static uint32_t
 half_edge_of(const ty_run *run, ty_edge e)
 {
@@ -440,7 +463,7 @@ ty_queue_least(ty_run *run, ty_edge *least, uint32_t *h)
 		else
 		{
 			drop_least(queue, is_sorted);
-			status = ty_queue_set(run, ty_least_edge(run, least->owner));
+			status = ty_queue_set(run, ty_next_edge(run, least->owner, *least));
 		}
 	}
 	least->owner = TY_NONE;

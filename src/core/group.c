@@ -1,35 +1,11 @@
 /* group.c - see group.h */
 #include "group_internal.h"
-
-#include "collapse.h"
 #include "shed.h"
 
 #include <math.h>
 #include <string.h>
 
 /* ---- exact sums of areas ---- */
-
-/*
- * Areas are summed as whole multiples of 2^-97 of a power of two above the group's largest, in 128 bits, which
- * TY_MAX_VERTICES of them fit into: exact for every area above 2^-44 of the largest, and in no case dependent on
- * the order. An area below 2^-97 of the largest adds nothing.
- */
-#define AREA_BITS 97
-#define LEAST_AREA_EXPONENT (-900) /* below, 1 / unit would overflow */
-
-static ty_area_scale
-fit_area_scale(const ty_building *buildings, size_t n)
-{
-	double largest = 0;
-	int exponent;
-
-	for (size_t i = 0; i < n; i++)
-		largest = buildings[i].area > largest ? buildings[i].area : largest;
-	(void) frexp(largest, &exponent);
-	if (exponent < LEAST_AREA_EXPONENT)
-		exponent = LEAST_AREA_EXPONENT;
-	return (ty_area_scale){ldexp(1, AREA_BITS - exponent), ldexp(1, exponent - AREA_BITS)};
-}
 
 /* sum over n buildings; members, if given, are their indices */
 static double
@@ -38,39 +14,32 @@ sum_areas(const ty_building *buildings, const uint32_t *members, size_t n, ty_ar
 	__int128 sum = 0;
 
 	for (size_t i = 0; i < n; i++)
-		sum += (__int128) (buildings[members == NULL ? i : members[i]].area * scale.to_units);
-	return (double) sum * scale.from_units;
+		sum += ty_area_units(scale, buildings[members == NULL ? i : members[i]].area);
+	return ty_area_of_units(scale, sum);
 }
 
 double
-ty_importance_of(const ty_group *g, uint32_t building)
+ty_group_importance(const ty_group *g, uint32_t building)
 {
 	double importance = g->importance == NULL ? 1 : g->importance[building];
 
 	return ty_is_kept(g->parameters, g->buildings[building].area, importance) ? INFINITY : importance;
 }
 
-/*
- * With importances: weights sum up to less than 2^62 (influence.h), so areas are taken as whole multiples of 2^-64 of
- * the power of two, for their product to fit.
- */
-#define WEIGHTED_AREA_BITS 64
-
 static double
 weighted_mean_area(const ty_group *g, const uint32_t *members, size_t n)
 {
-	double coarser = ldexp(1, WEIGHTED_AREA_BITS - AREA_BITS);
 	__int128 sum = 0;
 	int64_t weights = 0;
 
 	for (size_t i = 0; i < n; i++)
 	{
-		int64_t weight = ty_weight(ty_importance_of(g, members[i]), g->weight_exponent);
+		int64_t weight = ty_weight(ty_group_importance(g, members[i]), g->weight_exponent);
 
-		sum += weight * (__int128) (g->buildings[members[i]].area * g->scale.to_units * coarser);
+		sum += ty_weighted_area_units(g->scale, g->buildings[members[i]].area, weight);
 		weights += weight;
 	}
-	return (double) sum / (double) weights * (g->scale.from_units / coarser);
+	return ty_weighted_mean_area(g->scale, sum, weights);
 }
 
 /* ---- one placeholder ---- */
@@ -157,7 +126,7 @@ represents(const ty_group *g, uint32_t a, uint32_t b)
 {
 	if (g->weight != NULL)
 	{
-		double p = ty_importance_of(g, a), q = ty_importance_of(g, b);
+		double p = ty_group_importance(g, a), q = ty_group_importance(g, b);
 
 		if (p != q)
 			return p > q;
@@ -197,7 +166,7 @@ ty_describe(const ty_environment *env, const ty_group *g, const uint32_t *member
 	ty_status status = area_statistic(env, g, members + p->first, p->count, &p->statistic);
 
 	p->representative = representative(g, members + p->first, p->count);
-	p->kept = g->weight != NULL && ty_importance_of(g, p->representative) == INFINITY;
+	p->kept = g->weight != NULL && ty_group_importance(g, p->representative) == INFINITY;
 	b = &g->buildings[p->representative];
 	/* a building that stands for itself stays exactly where it is, and so does a kept one */
 	p->x = p->count == 1 || p->kept ? b->x : ty_grid_x(&g->grid, g->position[rank].x);
@@ -205,8 +174,6 @@ ty_describe(const ty_environment *env, const ty_group *g, const uint32_t *member
 	p->ux = b->ux;
 	p->uy = b->uy;
 	set_size(g, p);
-	p->moved = (ty_point){0, 0};
-	p->size = 2;
 	if (status == TY_OK && (!isfinite(p->area) || !isfinite(p->length)))
 		status = TY_NOT_FINITE;
 	return status;
@@ -293,7 +260,7 @@ static ty_status
 lay_out_rows(const ty_environment *env, const ty_group *g, const uint32_t *label, size_t n, ty_result *result)
 {
 	uint32_t *keeper = ty_allocate_array(env, result->count, sizeof *keeper);
-	ty_drawn_rows drawn = {&g->rows, g->buildings, g->order, label, keeper};
+	ty_drawn_rows drawn = {&g->rows, g->buildings, g->order, label, keeper, g->barriers};
 	size_t next = 0;
 	ty_status status;
 
@@ -331,18 +298,33 @@ cut_and_describe(const ty_environment *env, ty_group *g, const ty_sequence *sequ
 	return status;
 }
 
+/* what the rows of a group are found with */
+typedef struct row_search
+{
+	const ty_group *group;
+	const ty_barriers *barriers;
+} row_search;
+
+static bool
+barrier_parts(const void *context, ty_position a, ty_position b)
+{
+	return ty_barriers_cross(context, a, b);
+}
+
 /* The rows of the group, found in the mesh of its collapse. */
 static ty_status
 find_rows(const void *context, const ty_mesh *mesh, ty_rows *rows)
 {
-	const ty_group *g = context;
+	const row_search *search = context;
+	const ty_group *g = search->group;
+	ty_parting parting = {search->barriers->count > 0 ? barrier_parts : NULL, search->barriers};
 	ty_trait *trait = ty_allocate_array(mesh->env, mesh->vertices, sizeof *trait);
 	ty_status status;
 
 	if (trait == NULL)
 		return TY_NO_MEMORY;
 	ty_traits(g->buildings, g->order, mesh, &g->grid, trait);
-	status = ty_rows_detect(mesh->env, mesh, trait, rows);
+	status = ty_rows_detect(mesh->env, mesh, trait, parting, rows);
 	ty_release(mesh->env, trait);
 	return status;
 }
@@ -404,7 +386,7 @@ weigh_group(const ty_environment *env, ty_group *g, size_t n)
 	if (g->weight == NULL)
 		return TY_NO_MEMORY;
 	for (size_t rank = 0; rank < n; rank++)
-		g->weight[rank] = ty_importance_of(g, g->order[rank]);
+		g->weight[rank] = ty_group_importance(g, g->order[rank]);
 	g->weight_exponent = ty_weight_exponent(g->weight, n);
 	return TY_OK;
 }
@@ -416,12 +398,32 @@ weighs(const ty_influence *influence)
 	return influence->importance != NULL || influence->rows != NULL || influence->crosses != NULL;
 }
 
-/* The merge sequence, under what weighs edges besides their lengths. */
-static ty_status
-collapse_group(const ty_environment *env, ty_group *g, const ty_input *input, ty_sequence *sequence)
+ty_status
+ty_group_begin(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_group *g)
+{
+	ty_status status;
+
+	*g = (ty_group){.buildings = input->buildings,
+					.outlines = input->outlines,
+					.importance = input->importance,
+					.barriers = input->barriers,
+					.parameters = p,
+					.area_factor = ty_area_factor(p)};
+	status = ty_grid_fit(g->buildings, input->n, &g->grid);
+	if (status != TY_OK)
+		return status;
+	g->scale = ty_fit_area_scale(g->buildings, input->n);
+	status = order_group(env, g, input->n);
+	return status == TY_OK ? weigh_group(env, g, input->n) : status;
+}
+
+ty_status
+ty_group_collapse(const ty_environment *env, ty_group *g, const ty_input *input, ty_stop stop, bool with_cost,
+				  ty_sequence *sequence)
 {
 	ty_barriers barriers = {.env = env};
 	ty_influence influence = {.importance = g->weight};
+	row_search search = {g, &barriers};
 	double alignment = g->parameters->alignment;
 	ty_status status = TY_OK;
 
@@ -437,48 +439,42 @@ collapse_group(const ty_environment *env, ty_group *g, const ty_input *input, ty
 		influence.rows = &g->rows;
 		influence.alignment = alignment;
 		influence.find_rows = find_rows;
-		influence.context = g;
+		influence.context = &search;
 	}
 	if (status == TY_OK)
 		status = ty_collapse_keyed(env, g->position, take_keys(g), input->n, g->parameters->s_u,
-								   weighs(&influence) ? &influence : NULL, find_stop(g, input->n), false, NULL, NULL,
-								   sequence);
+								   weighs(&influence) ? &influence : NULL, stop, with_cost, NULL, NULL, sequence);
 	ty_barriers_free(&barriers);
 	return status;
+}
+
+void
+ty_group_free(const ty_environment *env, ty_group *g)
+{
+	ty_release(env, g->order);
+	ty_release(env, g->position);
+	ty_release(env, g->keys);
+	ty_release(env, g->weight);
+	ty_release(env, g->area_bits);
+	ty_release(env, g->sorted);
+	ty_rows_free(env, &g->rows);
+	*g = (ty_group){0};
 }
 
 /* Typifies buildings that all count. */
 static ty_status
 typify_houses(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result)
 {
-	size_t n = input->n;
-	ty_group g = {.buildings = input->buildings,
-				  .outlines = input->outlines,
-				  .importance = input->importance,
-				  .barriers = input->barriers,
-				  .parameters = p,
-				  .area_factor = ty_area_factor(p)};
+	ty_group g;
 	ty_sequence sequence = {0};
-	ty_status status = ty_grid_fit(g.buildings, n, &g.grid);
+	ty_status status = ty_group_begin(env, input, p, &g);
 
-	if (status != TY_OK)
-		return status;
-	g.scale = fit_area_scale(g.buildings, n);
-	status = order_group(env, &g, n);
 	if (status == TY_OK)
-		status = weigh_group(env, &g, n);
+		status = ty_group_collapse(env, &g, input, find_stop(&g, input->n), false, &sequence);
 	if (status == TY_OK)
-		status = collapse_group(env, &g, input, &sequence);
-	if (status == TY_OK)
-		status = cut_and_describe(env, &g, &sequence, n, result);
+		status = cut_and_describe(env, &g, &sequence, input->n, result);
 	ty_sequence_free(env, &sequence);
-	ty_release(env, g.order);
-	ty_release(env, g.position);
-	ty_release(env, g.keys);
-	ty_release(env, g.weight);
-	ty_release(env, g.area_bits);
-	ty_release(env, g.sorted);
-	ty_rows_free(env, &g.rows);
+	ty_group_free(env, &g);
 	return status;
 }
 
@@ -516,5 +512,6 @@ ty_result_free(const ty_environment *env, ty_result *result)
 {
 	ty_release(env, result->placeholders);
 	ty_release(env, result->members);
+	ty_release(env, result->sites);
 	*result = (ty_result){0};
 }

@@ -39,8 +39,6 @@ typedef struct ty_placeholder
 	double statistic;		 /* of the members' areas, unscaled */
 	double ratio;			 /* width / length; of the representative unless min_side changed it, 1 for squares */
 	double ux, uy;			 /* of the representative */
-	ty_point moved;			 /* by min_gap, from the vertex */
-	double size;			 /* as a ty_site has it: 2 unless min_gap shrunk it */
 	uint32_t representative; /* index into the caller's buildings */
 	uint32_t first, count;	 /* members: ty_result.members[first .. first + count) */
 	bool outlined;			 /* drawn with the representative's outline, not as a rectangle */
@@ -51,9 +49,10 @@ typedef struct ty_result
 {
 	size_t count;
 	ty_placeholder *placeholders; /* [count] in canonical order: by smallest rank of the members */
-	uint32_t *members;	   /* [n] indices into the caller's buildings, by placeholder, then by rank, sheds last */
-	size_t undrawn;		   /* placeholders without size; one of sheds alone has none and does not count */
-	size_t hidden;		   /* for which there was no room */
+	uint32_t *members; /* [n] indices into the caller's buildings, by placeholder, then by rank, sheds last */
+	ty_site *sites; /* [count] with min_gap: the placeholders as sites (legibility.h), as they are drawn; else NULL */
+	size_t undrawn; /* placeholders without size; one of sheds alone has none and does not count */
+	size_t hidden;	/* for which there was no room */
 	size_t collisions;	   /* of two kept buildings that are nearer to each other than min_gap ... */
 	uint32_t colliding[2]; /* ... the first two of them: indices into the caller's buildings */
 } ty_result;
@@ -65,7 +64,7 @@ typedef struct ty_result
  */
 ty_status ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result);
 /*
- * The placeholder as a site (legibility.h), where min_gap has put it. p, input: as its group was typified with; the
+ * The placeholder as a site (legibility.h) to which nothing has been done. p, input: as its group was typified with; the
  * site's group is 0.
  */
 void ty_placeholder_site(const ty_parameters *p, const ty_input *input, const ty_placeholder *placeholder,

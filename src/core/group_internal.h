@@ -1,16 +1,14 @@
-/* group_internal.h - what the files of the group share. */
+/*
+ * group_internal.h - a group on its way, as group.c, group_legible.c and hierarchy.c go it.
+ */
 #ifndef TY_GROUP_INTERNAL_H
 #define TY_GROUP_INTERNAL_H
 
 #include "alignment.h"
+#include "areas.h"
+#include "collapse.h"
 #include "grid.h"
 #include "group.h"
-
-/* see the head of group.c */
-typedef struct ty_area_scale
-{
-	double to_units, from_units;
-} ty_area_scale;
 
 typedef struct ty_group
 {
@@ -32,15 +30,24 @@ typedef struct ty_group
 	ty_rows rows;		   /* with alignment; else none */
 } ty_group;
 
+typedef ty_group group;
+
+/* Grid, canonical order and importances. Whatever it returns: ty_group_free. */
+ty_status ty_group_begin(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_group *g);
+/* The merge sequence, under what weighs edges besides their lengths. Once. */
+ty_status ty_group_collapse(const ty_environment *env, ty_group *g, const ty_input *input, ty_stop stop, bool with_cost,
+							ty_sequence *sequence);
+void ty_group_free(const ty_environment *env, ty_group *g);
+
+/* of a building, by its index; INFINITY: kept, for itself or for its size */
+double ty_group_importance(const ty_group *g, uint32_t building);
+
 /*
  * Fills in a placeholder whose members are known, ascending by rank. rank: the smallest of them, where the vertex
  * is kept.
  */
 ty_status ty_describe(const ty_environment *env, const ty_group *g, const uint32_t *members, uint32_t rank,
 					  ty_placeholder *p);
-
-/* The importance of a building; INFINITY: kept, for itself or for its size. */
-double ty_importance_of(const ty_group *g, uint32_t building);
 
 /* Sorts the ranks by label, stably; first and count of the placeholders, and members as buildings. */
 void ty_list_members(const uint32_t *label, const uint32_t *order, size_t n, ty_result *result);

@@ -81,7 +81,7 @@ keep_size(const ty_placeholder *q, ty_site *site)
 void
 ty_placeholder_site(const ty_parameters *p, const ty_input *input, const ty_placeholder *q, ty_site *site)
 {
-	*site = (ty_site){.ux = q->ux, .uy = q->uy, .weight = q->count, .moved = q->moved, .size = q->size};
+	*site = (ty_site){.ux = q->ux, .uy = q->uy, .weight = q->count, .size = 2};
 	site->state = q->area > 0 ? TY_DRAWN : TY_HIDDEN;
 	site->fixed = q->kept;
 	if (q->kept)
@@ -128,7 +128,7 @@ mean_position(const joining *j, size_t count)
 	{
 		const ty_building *b = &g->buildings[j->members[i]];
 		ty_position at = ty_grid_snap(&g->grid, b->x, b->y);
-		int64_t weight = g->weight == NULL ? 1 : ty_weight(ty_importance_of(g, j->members[i]), g->weight_exponent);
+		int64_t weight = g->weight == NULL ? 1 : ty_weight(ty_group_importance(g, j->members[i]), g->weight_exponent);
 
 		x += (__int128) weight * at.x;
 		y += (__int128) weight * at.y;
@@ -194,8 +194,6 @@ take_over(ty_placeholder *p, const ty_site *site)
 	ty_sides sides = ty_site_sides(site);
 	ty_point centre = ty_site_centre(site);
 
-	p->moved = site->moved;
-	p->size = site->size;
 	if (site->state == TY_HIDDEN)
 		p->area = p->width = p->length = 0;
 	if (site->state == TY_HIDDEN || (site->size >= 2 && site->moved.x == 0 && site->moved.y == 0))
@@ -245,6 +243,7 @@ renumber(const joining *j, uint32_t *label, size_t n)
 		take_over(&result->placeholders[k], &j->sites[k]);
 		result->undrawn += !(result->placeholders[k].area > 0);
 		result->placeholders[left] = result->placeholders[k];
+		j->sites[left] = j->sites[k];
 		number[k] = left++;
 	}
 	for (size_t rank = 0; rank < n; rank++)
@@ -294,7 +293,10 @@ ty_make_group_legible(const ty_environment *env, ty_group *g, uint32_t *label, s
 		status = ty_make_legible(env, &rules, j.sites, result->count);
 	if (status == TY_OK)
 		status = renumber(&j, label, n);
-	ty_release(env, j.sites);
+	if (status == TY_OK)
+		result->sites = j.sites;
+	else
+		ty_release(env, j.sites);
 	ty_release(env, j.first);
 	ty_release(env, j.next);
 	ty_release(env, j.members);

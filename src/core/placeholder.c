@@ -1,7 +1,9 @@
 /* placeholder.c - see placeholder.h */
 #include "placeholder.h"
 
+#include <float.h>
 #include <math.h>
+#include <string.h>
 
 #define DEGREES_PER_RADIAN 57.29577951308232087680
 #define RADIANS_PER_DEGREE 0.017453292519943295769
@@ -101,6 +103,106 @@ ty_count(size_t n, const ty_parameters *p, double mean_area)
 	if (!(count >= 1))
 		return 1;
 	return count < (double) n ? (size_t) count : n;
+}
+
+/* ---- the law the other way round ---- */
+
+/* Up to one or a few roundings the scale at which the radical law leaves a share, in (0, 1], of the buildings. */
+static double
+scale_of_share(const ty_parameters *p, double share)
+{
+	double beyond = fmax(p->exponent, LEAST_EXPONENT_BEYOND_LOD200);
+	double nearer = p->exponent > 0 ? p->source_scale * pow(share, -2 / p->exponent) : INFINITY;
+	double at_lod200 = power(p->source_scale / p->lod200_scale, p->exponent / 2);
+
+	return nearer <= p->lod200_scale ? nearer : p->lod200_scale * pow(share / at_lod200, -2 / beyond);
+}
+
+/* Positive doubles ascend as their bits do. */
+static uint64_t
+bits_of_scale(double scale)
+{
+	uint64_t bits;
+
+	memcpy(&bits, &scale, sizeof bits);
+	return bits;
+}
+
+static double
+scale_of_bits(uint64_t bits)
+{
+	double scale;
+
+	memcpy(&scale, &bits, sizeof scale);
+	return scale;
+}
+
+/* n buildings, of which the law leaves fewer than count from some scale on; p->scale is scratch */
+typedef struct threshold
+{
+	size_t n, count;
+	ty_parameters p;
+} threshold;
+
+static bool
+is_below_at(threshold *t, uint64_t bits)
+{
+	t->p.scale = scale_of_bits(bits);
+	return ty_count(t->n, &t->p, 1) < t->count;
+}
+
+/*
+ * Walks away from the guess in growing steps, until one end is below and the other, from least on, is not. False:
+ * nothing is below up to most.
+ */
+static bool
+bracket(threshold *t, uint64_t least, uint64_t guess, uint64_t most, uint64_t *not_below, uint64_t *below)
+{
+	bool down = is_below_at(t, guess);
+
+	*not_below = *below = guess;
+	for (uint64_t step = 1; down; step *= 2)
+	{
+		*below = *not_below;
+		*not_below = *below - least > step ? *below - step : least;
+		down = is_below_at(t, *not_below);
+		if (!down)
+			return true;
+	}
+	for (uint64_t step = 1; *not_below < most; step *= 2)
+	{
+		*below = most - *not_below > step ? *not_below + step : most;
+		if (is_below_at(t, *below))
+			return true;
+		*not_below = *below;
+	}
+	return false;
+}
+
+double
+ty_scale_below(size_t n, size_t count, const ty_parameters *p)
+{
+	threshold t = {n, count, *p};
+	uint64_t least = bits_of_scale(p->source_scale), most = bits_of_scale(DBL_MAX), not_below, below;
+	double guess;
+
+	if (count == 0 || (count == 1 && n > 0))
+		return INFINITY;
+	if (is_below_at(&t, least))
+		return p->source_scale;
+	guess = fmin(fmax(scale_of_share(p, (double) count / (double) n), p->source_scale), DBL_MAX);
+	if (!bracket(&t, least, bits_of_scale(guess), most, &not_below, &below))
+		return INFINITY;
+	while (below - not_below > 1)
+	{
+		uint64_t middle = not_below + (below - not_below) / 2;
+
+		if (is_below_at(&t, middle))
+			below = middle;
+		else
+			not_below = middle;
+	}
+	return scale_of_bits(below);
 }
 
 /* ---- sizes on the map ---- */

@@ -113,6 +113,13 @@ double ty_psi(double mean_placeholder_area, double mean_area_lod200, double sour
  */
 size_t ty_count(size_t n, const ty_parameters *p, double mean_area);
 
+/*
+ * The smallest scale of at least p->source_scale at which ty_count of n buildings is below count: found by the law's
+ * inverse, then among the doubles next to it. INFINITY: there is none, as for a count of 1. For the radical law, without
+ * p->count; p->scale is not looked at.
+ */
+double ty_scale_below(size_t n, size_t count, const ty_parameters *p);
+
 /* Ring, counter-clockwise and closed. ratio = width / length in (0, 1]; ux, uy: unit vector along the length. */
 void ty_rectangle(ty_point center, double area, double ratio, double ux, double uy, ty_point ring[5]);
 /* the two sides; NaN-free for area >= 0 and ratio in (0, 1] */

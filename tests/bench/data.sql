@@ -49,3 +49,31 @@ CREATE AGGREGATE bench_measure(geometry, double precision, double precision) (
 	STYPE = internal,
 	FINALFUNC = typify_serialize
 );
+
+-- Writes the nodes of a hierarchy once more, with all indexes: what building one takes besides finding them.
+CREATE FUNCTION bench_write_hierarchy(hierarchy regclass) RETURNS void
+LANGUAGE plpgsql AS
+$$
+BEGIN
+	EXECUTE format('CREATE TABLE bench_copy (LIKE %s)', hierarchy);
+	EXECUTE format('INSERT INTO bench_copy TABLE %s', hierarchy);
+	ALTER TABLE bench_copy ADD PRIMARY KEY (group_id, node);
+	CREATE INDEX ON bench_copy USING gist (place);
+	ANALYZE bench_copy;
+	DROP TABLE bench_copy;
+END
+$$;
+
+-- How many placeholders 200 look-ups find.
+CREATE FUNCTION bench_lookups(hierarchy regclass, buildings regclass) RETURNS bigint
+LANGUAGE plpgsql AS
+$$
+DECLARE
+	found bigint;
+BEGIN
+	EXECUTE format('SELECT sum((SELECT count(*) FROM typify_at(%L, scale, ST_Expand(ST_Centroid(geom), 0.15 * scale), false)))
+		FROM (SELECT geom, 25000 * power(2::float8, i %% 7) AS scale FROM (SELECT geom, row_number() OVER (ORDER BY
+			hashint8extended(id, 1)) AS i FROM %s) AS mixed WHERE i <= 200) AS box', hierarchy, buildings) INTO found;
+	RETURN found;
+END
+$$;

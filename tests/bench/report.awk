@@ -154,6 +154,19 @@ function options() {
 	statement_rows("typify s_u_0 s_u_1 counted to_one min_distance black_white median sum square", 1)
 }
 
+function hierarchies(i) {
+	section("Any scale", "A hierarchy of all buildings in one group, and look-ups in it. The goal is at most 3.")
+	head("statement", "")
+	statement_rows("typify hierarchy build_hierarchy write_hierarchy lookups", 1)
+	for (i = 1; i <= columns; i++)
+		cell[i] = sprintf("%.2f (%.2f)",
+			(median(column[i], "build_hierarchy") - median(column[i], "write_hierarchy")) / median(column[i], "typify"),
+			(cpu(column[i], "build_hierarchy") - cpu(column[i], "write_hierarchy")) / cpu(column[i], "typify"))
+	row("building without writing / `typify(geom, 75000, 0.5)`, in brackets of the processor's time")
+	for (i = 1; i <= columns; i++) cell[i] = sprintf("%.2f ms", 1000 * median(column[i], "lookups") / 200)
+	row("one look-up")
+}
+
 function workers(line) {
 	section("Two workers", "Groups are districts, and the table is hash-partitioned by them in 8. Of a group that is " \
 		"the whole table, two workers and the leader share the reading; its mesh is one process's.")
@@ -228,6 +241,7 @@ function growth(set, n, k, small) {
 END {
 	if (choose("typify") > 0) { reach(); where_the_time_goes(); statements() }
 	if (choose("s_u_0") > 0) options()
+	if (choose("build_hierarchy") > 0) hierarchies()
 	if (choose("workers") > 0) workers()
 	if (choose("core order") > 0) core_alone()
 	if (shape_count > 0) shapes()

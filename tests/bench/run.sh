@@ -160,9 +160,10 @@ for set in $SETS; do
 			all_runs $set "${WORKERS[@]}"
 			show_plan $set workers
 			all_runs $set "${OPTIONS[@]}"
+			all_runs $set "${HIERARCHY[@]}"
 			;;
 	esac
-	sql -c "DROP TABLE IF EXISTS bench_$set, bench_${set}_parts"
+	sql -c "DROP TABLE IF EXISTS bench_$set, bench_${set}_parts, bench_tree, bench_tree_groups"
 done
 for statement in "${!STATEMENT[@]}"; do
 	note query "$statement" "\`${STATEMENT[$statement]//@/b}\`${WORDS[$statement]:+, ${WORDS[$statement]}}"

@@ -3,6 +3,7 @@
 
 ROUND=(count scan measure envelopes delaunay typify unmerged to_one placeholders cluster blocks districts)
 OPTIONS=(typify s_u_0 s_u_1 counted to_one min_distance black_white median sum square)
+HIERARCHY=(typify hierarchy build_hierarchy write_hierarchy lookups)
 WORKERS=(serial workers typify typify_workers)
 
 declare -A STATEMENT=(
@@ -25,6 +26,10 @@ declare -A STATEMENT=(
 	[black_white]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(count_rule => 'black_white'))) FROM @"
 	[median]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(area_statistic => 'median'))) FROM @"
 	[sum]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(area_statistic => 'sum'))) FROM @"
+	[hierarchy]='SELECT cardinality(typify_hierarchy(geom, id, 0.5)) FROM @'
+	[build_hierarchy]="CALL typify_build_hierarchy('bench_tree', '@', 0.5)"
+	[write_hierarchy]="SELECT bench_write_hierarchy('bench_tree')"
+	[lookups]="SELECT bench_lookups('bench_tree', '@')"
 	[square]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(shape => 'square'))) FROM @"
 )
 STATEMENT[serial]=${STATEMENT[districts]/@/@_parts}
@@ -41,9 +46,12 @@ declare -A SETTINGS=(
 	[serial]="SET work_mem = '512MB';"
 	[workers]="SET work_mem = '512MB'; $TWO_WORKERS"
 	[typify_workers]='SET max_parallel_workers_per_gather = 2;'
+	[build_hierarchy]='DROP TABLE IF EXISTS bench_tree, bench_tree_groups;'
 )
 declare -A WORDS=(
 	[serial]='one process'
 	[workers]='two workers'
 	[typify_workers]='two workers'
+	[write_hierarchy]='the rows of that table once more into another, with its indexes'
+	[lookups]='200 boxes, 0.3 m wide on the map, at scales from 1:25 000 to 1:1 600 000'
 )

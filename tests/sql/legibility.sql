@@ -70,3 +70,19 @@ RESET client_min_messages;
 CREATE TEMP TABLE twins AS SELECT i AS id, i % 2 AS block, ST_MakeEnvelope(i / 2 * 60, 0, i / 2 * 60 + 10, 10) AS geom FROM generate_series(0, 19) AS i;
 SELECT count(*) AS rows, count(geom) AS drawn, sum(member_count) AS members FROM typify_derive('twins', NULL, 100000, group_by => 'block', options => typify_options(exponent => 0, min_side => 0.35, min_gap => 0.2));
 SELECT pg_temp.error_of('SELECT typify_settle(1, 1, 1, 0, ARRAY[1.0], NULL)');
+-- barriers: nothing comes nearer to a road of 0.5 mm than half of it and the gap, nor is on its other side; kept ones stay
+SET client_min_messages = error;
+CREATE TEMP TABLE road AS SELECT ST_Collect(geom) AS geom FROM settlement_roads WHERE class = 'main';
+CREATE TEMP TABLE beside AS
+SELECT scale, p.* FROM (SELECT 50000 AS scale, typify_placeholders(geom, id, 50000, 0.5, (SELECT typify_options(min_side => 0.35, min_gap => 0.2, barriers => geom, barrier_width => 0.5) FROM road)) AS list FROM house
+	UNION ALL SELECT 100000, typify_placeholders(geom, id, 100000, 0.5, (SELECT typify_options(min_side => 0.35, min_gap => 0.2, barriers => geom, barrier_width => 0.5) FROM road)) FROM house) AS q, unnest(list) AS p;
+SELECT scale, count(*) > 100 AS many, sum(member_count) AS members, pg_temp.too_near(array_agg(beside.geom), 0.2 * scale / 1000) AS too_near,
+	count(*) FILTER (WHERE ST_Distance(beside.geom, road.geom) < 0.45 * scale / 1000 * (1 - 1e-6)) AS too_near_to_a_road
+FROM beside, road GROUP BY scale ORDER BY scale;
+SELECT pg_temp.too_near(array_agg(d.geom), 10) AS too_near, count(*) FILTER (WHERE ST_Distance(d.geom, road.geom) < 22.5 * (1 - 1e-6)) AS too_near_to_a_road, sum(member_count) AS members
+FROM road, typify_derive('house', NULL, 50000, 0.5, 'block', options => (SELECT typify_options(min_side => 0.35, min_gap => 0.2, barriers => geom, barrier_width => 0.5) FROM road)) AS d;
+RESET client_min_messages;
+SELECT id, ST_AsText(ST_Centroid(geom), 3) AS at, round(width::numeric, 3) AS width, member_count FROM unnest((SELECT typify_placeholders(ST_MakeEnvelope(i * 30, 0, i * 30 + 40, 40), i, 50000, 0, typify_options(exponent => 0, min_side => 0.35, min_gap => 0.2),
+	CASE WHEN i IN (3, 4) THEN 'Infinity'::float8 ELSE 1 END) FROM generate_series(1, 6) AS i)) AS p WHERE id IN (3, 4) ORDER BY id;
+DROP VIEW hamlet;
+DROP TABLE settlement_buildings, settlement_roads, settlement_blocks;

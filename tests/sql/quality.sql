@@ -47,7 +47,7 @@ INSERT INTO cases VALUES
 	('19 multipolygon in a hole', 'SRID=25832;POLYGON((0 0, 90 0, 90 90, 0 90, 0 0), (10 10, 10 80, 80 80, 80 10, 10 10))'),
 	('19 multipolygon in a hole', 'SRID=25832;MULTIPOLYGON(((30 30, 50 30, 50 50, 30 50, 30 30)), ((52 30, 60 30, 60 50, 52 50, 52 30)))');
 CREATE FUNCTION gaps(wanted text, min_side float8 DEFAULT 17.5, min_gap float8 DEFAULT 10) RETURNS TABLE (overlapping bigint, narrow_gaps bigint, short_sides bigint, inked numeric) LANGUAGE sql AS
-$$ SELECT overlapping, narrow_gaps, short_sides, round(inked::numeric, 2) FROM typify_quality_gaps(ARRAY(SELECT geom FROM cases WHERE name = wanted), min_side, min_gap) $$;
+$$ SELECT overlapping, narrow_gaps, short_sides, round(inked::numeric, 2) FROM typify_quality_gaps(ARRAY(SELECT geom FROM cases WHERE name = wanted), ARRAY(SELECT point(ux, uy) FROM cases, typify_measures(geom) WHERE name = wanted), min_side, min_gap) $$;
 SELECT name, g.* FROM (SELECT DISTINCT name FROM cases) AS c, gaps(name) AS g ORDER BY name;
 SELECT g.* FROM gaps('05 a common border', 0, 0) AS g;
 -- as one layer: cases apart from each other, no members, no ids
@@ -138,7 +138,7 @@ SELECT buildings, asked, reached, not_drawn, lost, repeated FROM typify_quality(
 -- the pairs against all pairs
 CREATE TABLE many AS SELECT i, ST_Rotate(box_at(i * 7919 % 1009, i * 104729 % 1013, 10 + i % 40, 5 + i % 23), i) AS geom FROM generate_series(1, 300) AS i;
 SELECT g.overlapping, g.narrow_gaps, g.overlapping = s.overlapping AND g.narrow_gaps = s.narrow_gaps AS as_slowly, abs(inked - ST_Area(ST_UnaryUnion((SELECT ST_Collect(geom) FROM many)))) < 1e-6 AS union
-FROM typify_quality_gaps(ARRAY(SELECT geom FROM many), 5, 10) AS g,
+FROM typify_quality_gaps(ARRAY(SELECT geom FROM many), '{}', 5, 10) AS g,
 	(SELECT count(*) FILTER (WHERE ST_Overlaps(a.geom, b.geom) OR ST_Contains(a.geom, b.geom) OR ST_Contains(b.geom, a.geom)) AS overlapping, count(*) FILTER (WHERE ST_Disjoint(a.geom, b.geom) AND ST_DWithin(a.geom, b.geom, 10)) AS narrow_gaps
 	 FROM many AS a JOIN many AS b ON a.i < b.i) AS s;
 

@@ -184,7 +184,7 @@ compare_unwatched(const ty_position *position, size_t n, double s_u, const ty_in
 				  const ty_sequence *watched, const ty_position *end)
 {
 	ty_position moved[REFERENCE_MAX];
-	ty_sequence s = {0, NULL, NULL, NULL};
+	ty_sequence s = {0};
 	bool same;
 
 	memcpy(moved, position, n * sizeof *moved);
@@ -207,7 +207,7 @@ compare_with_reference(const ty_position *position, size_t n, double s_u, const 
 {
 	static comparison c;
 	ty_position moved[REFERENCE_MAX];
-	ty_sequence sequence = {0, NULL, NULL, NULL};
+	ty_sequence sequence = {0};
 	ty_status status;
 	const char *difference;
 

@@ -53,6 +53,7 @@ draw_parameters(size_t i)
 	p.count_rule = i % 7 == 3 ? TY_BLACK_WHITE : TY_RADICAL;
 	p.area_statistic = (ty_area_statistic) (i % 3);
 	p.shape = i % 5 == 4 ? TY_SQUARE : TY_RECTANGLE;
+	p.alignment = i % 4 == 2 ? 3 : 0;
 	return p;
 }
 

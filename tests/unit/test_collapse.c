@@ -153,7 +153,7 @@ cutting_numbers_clusters_by_smallest_rank(void)
 {
 	uint32_t kept[] = {3, 1, 1, 0};
 	uint32_t gone[] = {5, 2, 3, 4};
-	ty_sequence sequence = {4, kept, gone, NULL};
+	ty_sequence sequence = {.count = 4, .kept = kept, .gone = gone};
 	const uint32_t expected[5][6] = {
 		{0, 1, 2, 3, 4, 5}, {0, 1, 2, 3, 4, 3}, {0, 1, 1, 2, 3, 2}, {0, 1, 1, 1, 2, 1}, {0, 1, 1, 1, 0, 1},
 	};

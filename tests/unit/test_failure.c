@@ -171,6 +171,7 @@ weigh(size_t n, ty_parameters *p)
 	p->keep_area = 395;
 	p->min_side = 40;
 	p->min_gap = 30;
+	p->alignment = 2;
 }
 
 /* Typifies with what begin() set up and frees the result; says whether the environment was left by longjmp. */

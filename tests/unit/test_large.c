@@ -55,7 +55,7 @@ collapse_watched(large_kind kind, size_t n, double s_u, size_t interval)
 {
 	const ty_stop to_one = {1, 0};
 	watch w = {n, interval, NULL, 0};
-	ty_sequence sequence = {0, NULL, NULL, NULL};
+	ty_sequence sequence = {0};
 	clock_t start;
 	ty_status status;
 

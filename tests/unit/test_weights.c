@@ -117,6 +117,7 @@ kept_buildings_are_there_in_place_and_in_size_at_every_scale(void)
 			ty_result result;
 
 			p.keep_area = by_area ? 390 : 0;
+			p.alignment = set % 5 == 0 ? 2 : 0;
 			result = typify(n, true, &p);
 			kept = 0;
 			if (!number_members(&result, n))

@@ -1,0 +1,436 @@
+/*
+ * hierarchy.c - nodes of a hierarchy: as the value of the aggregate, as placeholders at a scale, and where they stand
+ * in the index.
+ *
+ * The index is a GiST index over points of the plane, which is built by sorting. A node that dies at a scale s' is
+ * looked for at all scales below; its polygon at a scale s reaches as far from its vertex as it is large. So nodes
+ * stand in bands, by scale_to, and in classes, by size, each a copy of the plane: a point is moved by BAND_SHIFT for
+ * every band in x, for every class in y. A look-up asks each band from that of s on, in every class for the box
+ * widened by what the largest of the class reaches at s. Half of what it finds is alive, since after s there appear
+ * fewer nodes than are alive at s; that is checked, and the polygon itself against the box.
+ */
+#include "compat.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "catalog/pg_type.h"
+#include "common/hashfn.h"
+#include "funcapi.h"
+#include "miscadmin.h"
+#include "utils/datum.h"
+#include "utils/geo_decls.h"
+
+#include "backend.h"
+#include "core/group.h"
+#include "core/hierarchy.h"
+#include "geometry.h"
+#include "hierarchy.h"
+#include "options.h"
+#include "progress.h"
+#include "row_array.h"
+
+/* --- the aggregate's value --- */
+
+/* The fields of the composite typify_node, in order. */
+enum
+{
+	NODE_NODE = 0,
+	NODE_PARENT,
+	NODE_KEPT,
+	NODE_REPRESENTATIVE,
+	NODE_MEMBER_COUNT,
+	NODE_FIRST_LEAF,
+	NODE_X,
+	NODE_Y,
+	NODE_AREA,
+	NODE_RATIO,
+	NODE_UX,
+	NODE_UY,
+	NODE_COST,
+	NODE_SCALE_FROM,
+	NODE_SCALE_TO,
+	NODE_FIELDS
+};
+
+/* exactly, but for what the null bitmap of a root takes */
+#define NODE_SIZE (MAXALIGN(SizeofHeapTupleHeader + 2) + 6 * sizeof(int32) + sizeof(int64) + 9 * sizeof(float8))
+
+#define FETCHED_AHEAD 16
+
+static void
+add_node(ty_row_array *rows, const ty_hierarchy *h, size_t number)
+{
+	ty_node node = ty_hierarchy_node(h, number);
+	Datum *values = rows->values;
+
+	values[NODE_NODE] = Int32GetDatum((int32) number);
+	rows->nulls[NODE_PARENT] = node.parent == TY_NONE;
+	values[NODE_PARENT] = Int32GetDatum((int32) node.parent);
+	values[NODE_KEPT] = BoolGetDatum(node.kept);
+	values[NODE_REPRESENTATIVE] = Int64GetDatum(h->buildings[node.representative].id);
+	values[NODE_MEMBER_COUNT] = Int32GetDatum((int32) node.member_count);
+	values[NODE_FIRST_LEAF] = Int32GetDatum((int32) node.first_leaf);
+	values[NODE_X] = Float8GetDatum(node.x);
+	values[NODE_Y] = Float8GetDatum(node.y);
+	values[NODE_AREA] = Float8GetDatum(node.area);
+	values[NODE_RATIO] = Float8GetDatum(node.ratio);
+	values[NODE_UX] = Float8GetDatum(node.ux);
+	values[NODE_UY] = Float8GetDatum(node.uy);
+	values[NODE_COST] = Float8GetDatum(node.cost);
+	values[NODE_SCALE_FROM] = Float8GetDatum(node.scale_from);
+	values[NODE_SCALE_TO] = Float8GetDatum(node.scale_to);
+	ty_row_array_add(rows);
+}
+
+Datum
+ty_node_array(FunctionCallInfo fcinfo, const ty_input *input, const ty_parameters *p)
+{
+	size_t n = input->n;
+	ty_row_array rows;
+	ty_hierarchy h;
+
+	ty_row_array_begin(&rows, fcinfo, NODE_FIELDS, "typify_node", 2 * n * NODE_SIZE, 2 * n - 1);
+	ty_build_hierarchy(input, p, &h);
+	ARR_DIMS(rows.array)[0] = (int) ty_hierarchy_nodes(&h);
+	for (size_t place = 0; place < ty_hierarchy_nodes(&h); place++)
+	{
+		CHECK_FOR_INTERRUPTS();
+		ty_hierarchy_fetch(&h, place + FETCHED_AHEAD);
+		add_node(&rows, &h, ty_hierarchy_stored(&h, place));
+	}
+	ty_hierarchy_free(&ty_backend_environment, &h);
+	return ty_row_array_end(&rows);
+}
+
+/* --- what a leaf was made of --- */
+
+/* A building's measures have no bytes between them. */
+StaticAssertDecl(sizeof(ty_building) == 6 * sizeof(double) + sizeof(int64), "ty_building is padded");
+
+static int64
+hash_of_building(const ty_building *building)
+{
+	return (int64) hash_bytes_extended((const unsigned char *) building, sizeof(*building), 0);
+}
+
+PG_FUNCTION_INFO_V1(typify_building_hash);
+Datum
+typify_building_hash(PG_FUNCTION_ARGS)
+{
+	ty_building building;
+	int32 srid;
+
+	if (!ty_measure_datum(PG_GETARG_DATUM(0), &building, &srid, NULL))
+		PG_RETURN_NULL();
+	building.id = PG_GETARG_INT64(1);
+	PG_RETURN_INT64(hash_of_building(&building));
+}
+
+PG_FUNCTION_INFO_V1(typify_leaf_hash);
+Datum
+typify_leaf_hash(PG_FUNCTION_ARGS)
+{
+	ty_building building = {.id = PG_GETARG_INT64(0),
+							.x = PG_GETARG_FLOAT8(1),
+							.y = PG_GETARG_FLOAT8(2),
+							.area = PG_GETARG_FLOAT8(3),
+							.ratio = PG_GETARG_FLOAT8(4),
+							.ux = PG_GETARG_FLOAT8(5),
+							.uy = PG_GETARG_FLOAT8(6)};
+
+	PG_RETURN_INT64(hash_of_building(&building));
+}
+
+/* --- places in the index --- */
+
+/* One copy of the plane beside the other: far more than coordinates come to. Where they do, places coincide. */
+#define BAND_SHIFT 268435456.0
+/* Classes hold what reaches less than 16, 128, 1024 ... units: few, of a factor that a tile hardly notices. */
+#define LEAST_CLASS_BITS 4
+#define CLASS_BITS 3
+#define MOST_CLASS 20
+/* Reaches are measured with this psi; one that draws larger counts as reaching further. */
+#define REACH_PSI TY_DEFAULT_PSI
+
+static int
+class_of(double reach)
+{
+	int exponent;
+
+	(void) frexp(reach, &exponent);
+	return exponent <= LEAST_CLASS_BITS ? 0
+										: Min((exponent - LEAST_CLASS_BITS + CLASS_BITS - 1) / CLASS_BITS, MOST_CLASS);
+}
+
+/* How far a node reaches that is drawn with the area factor 1, in ground units: half the diagonal. */
+PG_FUNCTION_INFO_V1(typify_reach);
+Datum
+typify_reach(PG_FUNCTION_ARGS)
+{
+	double area = PG_GETARG_FLOAT8(0);
+	double ratio = PG_GETARG_FLOAT8(1);
+	double psi = PG_GETARG_FLOAT8(2);
+
+	PG_RETURN_FLOAT8(0.5 * sqrt(area * (ratio + 1 / ratio)) * sqrt(fmax(1, (1 - psi) / (1 - REACH_PSI))));
+}
+
+PG_FUNCTION_INFO_V1(typify_place);
+Datum
+typify_place(PG_FUNCTION_ARGS)
+{
+	Point *place = palloc(sizeof(Point));
+
+	place->x = PG_GETARG_FLOAT8(0) + BAND_SHIFT * ty_band(PG_GETARG_FLOAT8(3), PG_GETARG_FLOAT8(4));
+	place->y = PG_GETARG_FLOAT8(1) + BAND_SHIFT * class_of(PG_GETARG_FLOAT8(2));
+	PG_RETURN_POINT_P(place);
+}
+
+/* what a look-up is about; scales from low to high */
+typedef struct search
+{
+	BOX box;
+	double low, high;
+	double reach, top; /* greatest in the table; top: of those scale_to that are finite */
+	double source_scale, lod200_scale;
+	double min_side; /* ground units at the high scale */
+} search;
+
+/* By how much the box is widened for nodes of this reach; a little more than need be, for what is rounded. */
+static double
+widening(const search *s, double reach)
+{
+	const double of_min_side = 0.90138781886599728; /* half the diagonal of 1 by 1.5, the most it adds */
+	ty_parameters p = {
+		.scale = s->low, .source_scale = s->source_scale, .lod200_scale = s->lod200_scale, .psi = REACH_PSI};
+	double fraction = fmin((s->low - s->source_scale) / (s->lod200_scale - s->source_scale), 1);
+	double enlargement = s->high / s->source_scale;
+	double factor = fmax(1, enlargement * enlargement * (1 - p.psi * fraction));
+	double farthest =
+		fmax(fmax(fabs(s->box.low.x), fabs(s->box.high.x)), fmax(fabs(s->box.low.y), fabs(s->box.high.y)));
+
+	return (reach * sqrt(factor) + of_min_side * s->min_side) * (1 + 1e-9) + farthest * 8 * DBL_EPSILON;
+}
+
+/* The box, wider, in a copy of the plane. */
+static BOX
+shifted_box(const search *s, int band, int class, double wider)
+{
+	BOX box;
+
+	box.low.x = s->box.low.x - wider + BAND_SHIFT * band;
+	box.high.x = s->box.high.x + wider + BAND_SHIFT * band;
+	box.low.y = s->box.low.y - wider + BAND_SHIFT * class;
+	box.high.y = s->box.high.y + wider + BAND_SHIFT * class;
+	return box;
+}
+
+/* Whether no point can lie in the boxes of two copies. */
+static bool
+copies_are_apart(const search *s, double wider)
+{
+	double width = s->box.high.x - s->box.low.x + 2 * wider, height = s->box.high.y - s->box.low.y + 2 * wider;
+	double farthest =
+		fmax(fmax(fabs(s->box.low.x), fabs(s->box.high.x)), fmax(fabs(s->box.low.y), fabs(s->box.high.y)));
+
+	return width < BAND_SHIFT - 1 && height < BAND_SHIFT - 1 && farthest < 1e15;
+}
+
+/* a box that holds those of all copies */
+static BOX
+box_of_all(const search *s, int most_class, double wider)
+{
+	BOX box = shifted_box(s, 0, 0, wider), last = shifted_box(s, TY_ROOT_BAND, most_class, wider);
+
+	box.high = last.high;
+	return box;
+}
+
+static Datum
+box_datum(BOX box)
+{
+	BOX *copy = palloc(sizeof(BOX));
+
+	*copy = box;
+	return BoxPGetDatum(copy);
+}
+
+static int
+list_boxes(const search *s, int most_class, Datum *boxes)
+{
+	int first = ty_band(s->low, s->source_scale), last = ty_band(s->top, s->source_scale);
+	int count = 0;
+
+	for (int class = 0; class <= most_class; class ++)
+	{
+		double limit = ldexp(1, LEAST_CLASS_BITS + CLASS_BITS * class);
+		double wider = widening(s, class == most_class ? s->reach : limit);
+
+		for (int band = first; band <= last && band < TY_ROOT_BAND; band++)
+			boxes[count++] = box_datum(shifted_box(s, band, class, wider));
+		boxes[count++] = box_datum(shifted_box(s, TY_ROOT_BAND, class, wider));
+	}
+	return count;
+}
+
+PG_FUNCTION_INFO_V1(typify_search);
+Datum
+typify_search(PG_FUNCTION_ARGS)
+{
+	search s = {.box = *PG_GETARG_BOX_P(0),
+				.low = PG_GETARG_FLOAT8(1),
+				.high = PG_GETARG_FLOAT8(2),
+				.reach = PG_GETARG_FLOAT8(3),
+				.top = PG_GETARG_FLOAT8(4),
+				.source_scale = PG_GETARG_FLOAT8(5),
+				.lod200_scale = PG_GETARG_FLOAT8(6),
+				.min_side = PG_GETARG_FLOAT8(7)};
+	int most_class = class_of(s.reach), count = 1;
+	Datum *boxes = palloc(sizeof(Datum) * (most_class + 1) * (TY_ROOT_BAND + 1));
+	double widest = widening(&s, s.reach);
+
+	if (copies_are_apart(&s, widest))
+		count = list_boxes(&s, most_class, boxes);
+	else
+		boxes[0] = box_datum(box_of_all(&s, most_class, widest));
+	PG_RETURN_ARRAYTYPE_P(construct_array(boxes, count, BOXOID, sizeof(BOX), false, TYPALIGN_DOUBLE));
+}
+
+/* --- placeholders at a scale --- */
+
+/* Arguments of typify_node_placeholder that say how to draw. */
+enum
+{
+	DRAW_KEPT = 8,
+	DRAW_SCALE,
+	DRAW_OPTIONS,
+	DRAW_PSI,
+	DRAW_SRID,
+	DRAW_METRES
+};
+
+/* What is kept from row to row. */
+typedef struct drawing
+{
+	MemoryContext context;
+	bool parsed;
+	bool options_null;
+	bool stable; /* options are the same for all rows */
+	Datum options;
+	double scale, metres_per_unit, psi;
+	double own_psi; /* of the options */
+	ty_parameters parameters;
+	double area_factor;
+	TupleDesc shape;
+} drawing;
+
+static drawing *
+drawing_of(FunctionCallInfo fcinfo)
+{
+	FmgrInfo *function = fcinfo->flinfo;
+	drawing *d = function->fn_extra;
+	MemoryContext old;
+
+	if (likely(d != NULL))
+		return d;
+	old = MemoryContextSwitchTo(function->fn_mcxt);
+	d = palloc0(sizeof(drawing));
+	d->context = function->fn_mcxt;
+	d->stable = get_fn_expr_arg_stable(function, DRAW_OPTIONS);
+	if (get_call_result_type(fcinfo, NULL, &d->shape) != TYPEFUNC_COMPOSITE)
+		elog(ERROR, "typify_node_placeholder is not declared as this library expects");
+	d->shape = BlessTupleDesc(d->shape);
+	ty_check_shape(d->shape, TY_PLACEHOLDER_FIELDS, "typify_placeholder");
+	function->fn_extra = d;
+	MemoryContextSwitchTo(old);
+	return d;
+}
+
+static bool
+same_drawing(const drawing *d, const NullableDatum *args)
+{
+	return d->parsed && d->scale == DatumGetFloat8(args[DRAW_SCALE].value) &&
+		   d->metres_per_unit == DatumGetFloat8(args[DRAW_METRES].value) &&
+		   (d->stable || (d->options_null == args[DRAW_OPTIONS].isnull &&
+						  (d->options_null || datum_image_eq(d->options, args[DRAW_OPTIONS].value, false, -1))));
+}
+
+/* Everything but the psi that a group may have of its own. */
+static void
+parse_drawing(drawing *d, const NullableDatum *args)
+{
+	bool null = args[DRAW_OPTIONS].isnull;
+	MemoryContext old = MemoryContextSwitchTo(d->context);
+
+	ty_resolve_parameters(DatumGetFloat8(args[DRAW_SCALE].value), 0, null ? (Datum) 0 : args[DRAW_OPTIONS].value, null,
+						  &d->parameters);
+	if (d->parsed && !d->options_null)
+		pfree(DatumGetPointer(d->options));
+	d->options_null = null;
+	d->options = null ? (Datum) 0 : datumCopy(args[DRAW_OPTIONS].value, false, -1);
+	d->scale = d->parameters.scale;
+	d->metres_per_unit = DatumGetFloat8(args[DRAW_METRES].value);
+	d->own_psi = d->psi = d->parameters.psi;
+	d->area_factor = ty_area_factor(&d->parameters);
+	ty_bring_to_ground(&d->parameters, d->metres_per_unit);
+	d->parsed = true;
+	MemoryContextSwitchTo(old);
+}
+
+static void
+set_psi(drawing *d, double psi)
+{
+	if (psi == d->psi)
+		return;
+	if (!(isfinite(psi) && psi <= 1))
+		ty_refuse_value("psi", psi, "a finite number of at most 1");
+	d->psi = d->parameters.psi = psi;
+	d->area_factor = ty_area_factor(&d->parameters);
+}
+
+/* A kept node is drawn as if it stood for its building alone. */
+static ty_placeholder
+placeholder_of(const drawing *d, const NullableDatum *args)
+{
+	double statistic = DatumGetFloat8(args[3].value);
+	double ratio = d->parameters.shape == TY_SQUARE ? 1 : DatumGetFloat8(args[4].value);
+	bool kept = DatumGetBool(args[DRAW_KEPT].value);
+	int32 members = DatumGetInt32(args[7].value);
+	double area = kept ? statistic : ty_scaled_area(&d->parameters, d->area_factor, statistic);
+	ty_size size = ty_drawn_size(&d->parameters, statistic, area, ratio, kept ? 1 : Max(members, 1));
+
+	return (ty_placeholder){.x = DatumGetFloat8(args[1].value),
+							.y = DatumGetFloat8(args[2].value),
+							.area = size.area,
+							.width = size.width,
+							.length = size.length,
+							.ratio = size.ratio,
+							.ux = DatumGetFloat8(args[5].value),
+							.uy = DatumGetFloat8(args[6].value),
+							.count = members};
+}
+
+PG_FUNCTION_INFO_V1(typify_node_placeholder);
+Datum
+typify_node_placeholder(PG_FUNCTION_ARGS)
+{
+	drawing *d = drawing_of(fcinfo);
+	ty_placeholder p;
+	Datum polygon, *values;
+	bool *nulls;
+
+	for (int i = 0; i < PG_NARGS(); i++)
+		if (PG_ARGISNULL(i) && i != DRAW_OPTIONS && i != DRAW_PSI)
+			PG_RETURN_NULL();
+	if (!same_drawing(d, fcinfo->args))
+		parse_drawing(d, fcinfo->args);
+	set_psi(d, PG_ARGISNULL(DRAW_PSI) ? d->own_psi : PG_GETARG_FLOAT8(DRAW_PSI));
+	p = placeholder_of(d, fcinfo->args);
+	values = palloc0(d->shape->natts * sizeof(Datum));
+	nulls = palloc(d->shape->natts * sizeof(bool));
+	memset(nulls, true, d->shape->natts * sizeof(bool));
+	polygon =
+		p.area > 0 ? ty_write_rectangle(palloc(TY_POLYGON_DATUM_SIZE), &p, PG_GETARG_INT32(DRAW_SRID)) : (Datum) 0;
+	ty_placeholder_values(&p, PG_GETARG_INT64(0), polygon, values, nulls);
+	PG_RETURN_DATUM(HeapTupleGetDatum(heap_form_tuple(d->shape, values, nulls)));
+}
