@@ -53,13 +53,16 @@ clean: clean-tests
 clean-tests:
 	@for dir in tests/unit tests/fuzz tests/bench; do if [ -f $$dir/Makefile ]; then $(MAKE) -s -C $$dir clean; fi; done
 
-.PHONY: demo test fuzz bench bench-core quality doc help
-# make hands on what it is given: DATA, ROADS, OSM, ATTRIBUTION, OUT, QGIS, PGVERSION, TYPIFY_DATA, N, RUNS, LARGE,
-# SETS, SCALES, RESULTS_OUT
+.PHONY: demo web test fuzz bench bench-core quality doc help
+# make hands on what it is given: DATA, ROADS, PORT, OSM, ATTRIBUTION, OUT, QGIS, PGVERSION, TYPIFY_DATA, N, RUNS,
+# LARGE, TILES, SETS, SCALES, RESULTS_OUT
 export DATA
 demo: override DATA := $(DEMO_DATA)
 demo:
 	@tools/demo.sh
+web: override DATA := $(DEMO_DATA)
+web:
+	@tools/web.sh
 test:
 	@tools/test.sh
 fuzz:
@@ -82,6 +85,7 @@ help:
 	@echo "  ROADS=file.csv.gz   ... with lines under them, ATTRIBUTION='(c) ...' with words below"
 	@echo "  OSM=file.osm.pbf    ... of an OpenStreetMap extract"
 	@echo "  OUT=folder          ... pictures elsewhere"
+	@echo "make web              a web map of it at any scale, until interrupted; PORT=8080 DATA= ROADS="
 	@echo "make test             every test, in a throw-away server"
 	@echo "  QGIS=1              ... with QGIS, which takes 600 MB more"
 	@echo "make fuzz             both fuzz targets, SECONDS=60 each"
@@ -90,4 +94,4 @@ help:
 	@echo "make quality          figures of layers beside those of PostGIS alone, in doc/quality.md; SETS= SCALES= OUT="
 	@echo "make doc              the pictures of README and doc/, and what the tutorial's commands print"
 	@echo "make clean            remove what was built"
-	@echo "demo, test, fuzz, bench, quality and doc install missing Debian packages (as root or with sudo), take PGVERSION=15."
+	@echo "demo, web, test, fuzz, bench, quality and doc install missing Debian packages (as root or sudo), take PGVERSION=15."

@@ -567,7 +567,8 @@ BEGIN
 		EXECUTE format('CREATE INDEX ON %s USING gist (extent)', part.groups);
 		IF ranked THEN
 			-- ranking has written every row anew, in any order
-			EXECUTE format('CLUSTER %s USING %s', part.nodes, typify_layer_index(hierarchy, 'place'));
+			EXECUTE format('CLUSTER %s USING %I', part.nodes,
+				(SELECT relname FROM pg_class WHERE oid = typify_layer_index(hierarchy, 'place')));
 			EXECUTE format('ALTER TABLE %s SET WITHOUT CLUSTER', part.nodes);
 		END IF;
 		EXECUTE format('ANALYZE %s (group_id, node, scale_from, scale_to, place)', part.nodes);

@@ -133,6 +133,48 @@ ty_geometry_datum_has_points(Datum geometry)
 	return status == TY_GEOMETRY_OK;
 }
 
+ty_point *
+ty_line_points(Datum geometry, uint32 *n)
+{
+	detoasted d = detoast(geometry);
+	const unsigned char *bytes;
+	size_t stride;
+	ty_point *points = NULL;
+
+	if (ty_geometry_line(d.payload, d.size, &bytes, &stride, n))
+	{
+		points = palloc(*n * sizeof(ty_point));
+		for (uint32 i = 0; i < *n; i++)
+			memcpy(&points[i], bytes + i * stride, sizeof(ty_point));
+	}
+	release(&d);
+	return points;
+}
+
+Datum
+ty_ring_datum(const ty_point *ring, uint32 n, int32 srid)
+{
+	size_t size = VARHDRSZ + TY_RING_PAYLOAD(n);
+	struct varlena *value = palloc(size);
+
+	SET_VARSIZE(value, size);
+	ty_geometry_write_ring((unsigned char *) VARDATA(value), srid, ring, n);
+	return PointerGetDatum(value);
+}
+
+Datum
+ty_line_datum(int32 srid, uint32 n, ty_point **points)
+{
+	size_t size = VARHDRSZ + TY_LINE_PAYLOAD(n);
+	struct varlena *value = palloc(size);
+
+	SET_VARSIZE(value, size);
+	ty_geometry_begin_line((unsigned char *) VARDATA(value), srid, n);
+	/* a payload begins 4 bytes after the value does, and its points 12 further on: they are aligned */
+	*points = (ty_point *) ((char *) value + size - n * sizeof(ty_point));
+	return PointerGetDatum(value);
+}
+
 static void
 rectangle_ring(const ty_placeholder *placeholder, ty_point ring[5])
 {

@@ -22,6 +22,13 @@ extern bool ty_point_datum(Datum geometry, const char *argument, ty_point *point
 /* Whether a geometry of any type has any point. */
 extern bool ty_geometry_datum_has_points(Datum geometry);
 
+/* The points of a LINESTRING in the current context; NULL when it has none, and for any other type. */
+extern ty_point *ty_line_points(Datum geometry, uint32 *n);
+
+/* A closed ring as a POLYGON, and a LINESTRING whose n points *points are still to be set. */
+extern Datum ty_ring_datum(const ty_point *ring, uint32 n, int32 srid);
+extern Datum ty_line_datum(int32 srid, uint32 n, ty_point **points);
+
 /*
  * The outline that a building, which has been measured, is drawn with when it represents others, in the current context;
  * NULL for a rectangle. footprint: that of a POLYGON or of the largest polygon of a MULTIPOLYGON. auto: that of a kept

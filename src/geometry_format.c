@@ -418,6 +418,19 @@ ty_geometry_read(const ty_environment *env, const unsigned char *payload, size_t
 	return status_of(status);
 }
 
+bool
+ty_geometry_line(const unsigned char *payload, size_t size, const unsigned char **points, size_t *stride, uint32_t *n)
+{
+	cursor c;
+	uint32_t type;
+	int32_t srid;
+
+	if (!open_payload(payload, size, &c, &srid) || !take_type_and_count(&c, &type, n) || type != TY_GEOMETRY_LINE)
+		return false;
+	*stride = c.stride;
+	return *n > 0 && take_points(&c, *n, points);
+}
+
 /* ---- outlines ---- */
 
 /* The points of all rings of a polygon whose number of rings has been read; the cursor stays. */
@@ -566,14 +579,14 @@ put_box(unsigned char *at, ty_point low, ty_point high)
 }
 
 static void
-put_polygon(unsigned char **at, const ty_point ring[5])
+put_polygon(unsigned char **at, const ty_point *ring, uint32_t n)
 {
 	put_number(at, TY_GEOMETRY_POLYGON);
 	put_number(at, 1);
-	put_number(at, RING_POINTS);
+	put_number(at, n);
 	put_number(at, 0); /* padding */
-	memcpy(*at, ring, RING_POINTS * sizeof(ty_point));
-	*at += RING_POINTS * sizeof(ty_point);
+	memcpy(*at, ring, n * sizeof(ty_point));
+	*at += n * sizeof(ty_point);
 }
 
 static void
@@ -629,15 +642,31 @@ ty_geometry_write_outline(unsigned char *payload, int32_t srid, const ty_outline
 }
 
 void
-ty_geometry_write_polygon(unsigned char *payload, int32_t srid, const ty_point ring[5])
+ty_geometry_write_ring(unsigned char *payload, int32_t srid, const ty_point *ring, uint32_t n)
 {
 	unsigned char *at = payload + HEADER_SIZE + BOX_SIZE;
 	ty_point low = ring[0], high = ring[0];
 
-	widen_box(&low, &high, ring, RING_POINTS);
+	widen_box(&low, &high, ring, n);
 	pack_header(payload, srid, FLAG_VERSION_2 | FLAG_BOX);
 	put_box(payload + HEADER_SIZE, low, high);
-	put_polygon(&at, ring);
+	put_polygon(&at, ring, n);
+}
+
+void
+ty_geometry_write_polygon(unsigned char *payload, int32_t srid, const ty_point ring[5])
+{
+	ty_geometry_write_ring(payload, srid, ring, RING_POINTS);
+}
+
+void
+ty_geometry_begin_line(unsigned char *payload, int32_t srid, uint32_t n)
+{
+	unsigned char *at = payload + HEADER_SIZE;
+
+	pack_header(payload, srid, FLAG_VERSION_2);
+	put_number(&at, TY_GEOMETRY_LINE);
+	put_number(&at, n);
 }
 
 void
@@ -659,7 +688,7 @@ void
 ty_collection_add(ty_collection_writer *writer, const ty_point ring[5])
 {
 	widen_box(&writer->low, &writer->high, ring, RING_POINTS);
-	put_polygon(&writer->at, ring);
+	put_polygon(&writer->at, ring, RING_POINTS);
 }
 
 void

@@ -65,6 +65,13 @@ ty_geometry_status ty_geometry_visit_lines(const unsigned char *payload, size_t 
 bool ty_geometry_find_not_finite(const unsigned char *payload, size_t size, double *value);
 
 /*
+ * The points of a LINESTRING: where the first lies (at any alignment), the bytes from one to the next, and how many.
+ * False when it has none, for another type and for corrupt bytes.
+ */
+bool ty_geometry_line(const unsigned char *payload, size_t size, const unsigned char **points, size_t *stride,
+					  uint32_t *n);
+
+/*
  * The outline of a POLYGON, or of the largest polygon, the first of equals, of a MULTIPOLYGON: *outline, to be given
  * back with ty_release; NULL where there is none that could be drawn. The geometry has been read before.
  */
@@ -75,7 +82,9 @@ ty_geometry_status ty_geometry_outline(const ty_environment *env, const unsigned
 const char *ty_geometry_type_name(uint32_t type);
 
 /* payload sizes of what the writers write */
-#define TY_POLYGON_PAYLOAD ((size_t) 116)
+#define TY_RING_PAYLOAD(points) (36 + sizeof(ty_point) * (size_t) (points))
+#define TY_POLYGON_PAYLOAD TY_RING_PAYLOAD(5)
+#define TY_LINE_PAYLOAD(points) (12 + sizeof(ty_point) * (size_t) (points))
 #define TY_RECTANGLE_IN_COLLECTION ((size_t) 96)
 #define TY_COLLECTION_PAYLOAD(polygons) \
 	((polygons) == 0 ? (size_t) 12 : 28 + TY_RECTANGLE_IN_COLLECTION * (size_t) (polygons))
@@ -88,6 +97,15 @@ void ty_geometry_write_outline(unsigned char *payload, int32_t srid, const ty_ou
 
 /* A POLYGON of one closed ring of five points. payload: TY_POLYGON_PAYLOAD bytes, at any alignment. */
 void ty_geometry_write_polygon(unsigned char *payload, int32_t srid, const ty_point ring[5]);
+
+/* A POLYGON of one closed ring of n points, n > 0. payload: TY_RING_PAYLOAD(n) bytes, at any alignment. */
+void ty_geometry_write_ring(unsigned char *payload, int32_t srid, const ty_point *ring, uint32_t n);
+
+/*
+ * All of a LINESTRING of n points but these: TY_LINE_PAYLOAD(n) bytes, at any alignment, that end with them. Without a
+ * box, as PostGIS allows.
+ */
+void ty_geometry_begin_line(unsigned char *payload, int32_t srid, uint32_t n);
 
 /*
  * A GEOMETRYCOLLECTION of such polygons and of outlines, written one after the other. It takes

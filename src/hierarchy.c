@@ -318,10 +318,11 @@ typedef struct drawing
 	bool stable; /* options are the same for all rows */
 	Datum options;
 	double scale, metres_per_unit, psi;
-	double own_psi; /* of the options */
+	double own_psi;			/* of the options */
+	ty_parameters resolved; /* lengths in millimetres */
 	ty_parameters parameters;
 	double area_factor;
-	TupleDesc shape;
+	TupleDesc shape; /* of typify_placeholder, NULL until it is needed */
 } drawing;
 
 static drawing *
@@ -337,20 +338,27 @@ drawing_of(FunctionCallInfo fcinfo)
 	d = palloc0(sizeof(drawing));
 	d->context = function->fn_mcxt;
 	d->stable = get_fn_expr_arg_stable(function, DRAW_OPTIONS);
-	if (get_call_result_type(fcinfo, NULL, &d->shape) != TYPEFUNC_COMPOSITE)
-		elog(ERROR, "typify_node_placeholder is not declared as this library expects");
-	d->shape = BlessTupleDesc(d->shape);
-	ty_check_shape(d->shape, TY_PLACEHOLDER_FIELDS, "typify_placeholder");
 	function->fn_extra = d;
 	MemoryContextSwitchTo(old);
 	return d;
 }
 
-static bool
-same_drawing(const drawing *d, const NullableDatum *args)
+static void
+find_shape(FunctionCallInfo fcinfo, drawing *d)
 {
-	return d->parsed && d->scale == DatumGetFloat8(args[DRAW_SCALE].value) &&
-		   d->metres_per_unit == DatumGetFloat8(args[DRAW_METRES].value) &&
+	MemoryContext old = MemoryContextSwitchTo(d->context);
+
+	if (get_call_result_type(fcinfo, NULL, &d->shape) != TYPEFUNC_COMPOSITE)
+		elog(ERROR, "typify_node_placeholder is not declared as this library expects");
+	d->shape = BlessTupleDesc(d->shape);
+	ty_check_shape(d->shape, TY_PLACEHOLDER_FIELDS, "typify_placeholder");
+	MemoryContextSwitchTo(old);
+}
+
+static bool
+same_options(const drawing *d, const NullableDatum *args)
+{
+	return d->parsed &&
 		   (d->stable || (d->options_null == args[DRAW_OPTIONS].isnull &&
 						  (d->options_null || datum_image_eq(d->options, args[DRAW_OPTIONS].value, false, -1))));
 }
@@ -362,19 +370,33 @@ parse_drawing(drawing *d, const NullableDatum *args)
 	bool null = args[DRAW_OPTIONS].isnull;
 	MemoryContext old = MemoryContextSwitchTo(d->context);
 
+	d->parsed = false;
 	ty_resolve_parameters(DatumGetFloat8(args[DRAW_SCALE].value), 0, null ? (Datum) 0 : args[DRAW_OPTIONS].value, null,
-						  &d->parameters);
-	if (d->parsed && !d->options_null)
+						  &d->resolved);
+	if (d->options != (Datum) 0)
 		pfree(DatumGetPointer(d->options));
 	d->options_null = null;
 	d->options = null ? (Datum) 0 : datumCopy(args[DRAW_OPTIONS].value, false, -1);
-	d->scale = d->parameters.scale;
-	d->metres_per_unit = DatumGetFloat8(args[DRAW_METRES].value);
-	d->own_psi = d->psi = d->parameters.psi;
-	d->area_factor = ty_area_factor(&d->parameters);
-	ty_bring_to_ground(&d->parameters, d->metres_per_unit);
+	d->own_psi = d->resolved.psi;
+	d->scale = 0;
 	d->parsed = true;
 	MemoryContextSwitchTo(old);
+}
+
+/* Each group of a tile has its own scale, so that it changes often. */
+static void
+set_scale(drawing *d, double scale, double metres_per_unit)
+{
+	if (scale == d->scale && metres_per_unit == d->metres_per_unit)
+		return;
+	d->scale = 0;
+	d->parameters = d->resolved;
+	ty_set_scale(&d->parameters, scale);
+	d->scale = scale;
+	d->metres_per_unit = metres_per_unit;
+	d->psi = d->own_psi;
+	d->area_factor = ty_area_factor(&d->parameters);
+	ty_bring_to_ground(&d->parameters, metres_per_unit);
 }
 
 static void
@@ -410,6 +432,22 @@ placeholder_of(const drawing *d, const NullableDatum *args)
 							.count = members};
 }
 
+bool
+ty_draw_node(FunctionCallInfo fcinfo, ty_placeholder *p)
+{
+	drawing *d = drawing_of(fcinfo);
+
+	for (int i = 0; i <= DRAW_METRES; i++)
+		if (PG_ARGISNULL(i) && i != DRAW_OPTIONS && i != DRAW_PSI)
+			return false;
+	if (!same_options(d, fcinfo->args))
+		parse_drawing(d, fcinfo->args);
+	set_scale(d, PG_GETARG_FLOAT8(DRAW_SCALE), PG_GETARG_FLOAT8(DRAW_METRES));
+	set_psi(d, PG_ARGISNULL(DRAW_PSI) ? d->own_psi : PG_GETARG_FLOAT8(DRAW_PSI));
+	*p = placeholder_of(d, fcinfo->args);
+	return true;
+}
+
 PG_FUNCTION_INFO_V1(typify_node_placeholder);
 Datum
 typify_node_placeholder(PG_FUNCTION_ARGS)
@@ -419,13 +457,10 @@ typify_node_placeholder(PG_FUNCTION_ARGS)
 	Datum polygon, *values;
 	bool *nulls;
 
-	for (int i = 0; i < PG_NARGS(); i++)
-		if (PG_ARGISNULL(i) && i != DRAW_OPTIONS && i != DRAW_PSI)
-			PG_RETURN_NULL();
-	if (!same_drawing(d, fcinfo->args))
-		parse_drawing(d, fcinfo->args);
-	set_psi(d, PG_ARGISNULL(DRAW_PSI) ? d->own_psi : PG_GETARG_FLOAT8(DRAW_PSI));
-	p = placeholder_of(d, fcinfo->args);
+	if (!ty_draw_node(fcinfo, &p))
+		PG_RETURN_NULL();
+	if (d->shape == NULL)
+		find_shape(fcinfo, d);
 	values = palloc0(d->shape->natts * sizeof(Datum));
 	nulls = palloc(d->shape->natts * sizeof(bool));
 	memset(nulls, true, d->shape->natts * sizeof(bool));

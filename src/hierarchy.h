@@ -13,4 +13,10 @@
  */
 extern Datum ty_node_array(FunctionCallInfo fcinfo, const ty_input *input, const ty_parameters *p);
 
+/*
+ * A node as it is drawn at a scale, by the arguments of typify_node_placeholder, which the function's first are; false
+ * when one of them is NULL.
+ */
+extern bool ty_draw_node(FunctionCallInfo fcinfo, ty_placeholder *p);
+
 #endif

@@ -316,9 +316,8 @@ resolve_options(double s_u, Datum composite, bool composite_null, ty_parameters 
 }
 
 void
-ty_resolve_parameters(double scale, double s_u, Datum composite, bool composite_null, ty_parameters *p)
+ty_set_scale(ty_parameters *p, double scale)
 {
-	resolve_options(s_u, composite, composite_null, p);
 	if (!isfinite(scale) || scale < p->source_scale)
 		ty_refuse_value("scale", scale,
 						psprintf("a finite number of at least source_scale (%s)", ty_number_text(p->source_scale)));
@@ -328,6 +327,13 @@ ty_resolve_parameters(double scale, double s_u, Datum composite, bool composite_
 				errmsg("the area factor of scale %s with psi %s and source_scale %s is out of range",
 					   ty_number_text(scale), ty_number_text(p->psi), ty_number_text(p->source_scale)),
 				errhint("Use a smaller scale denominator, or a psi between 0 and 1."));
+}
+
+void
+ty_resolve_parameters(double scale, double s_u, Datum composite, bool composite_null, ty_parameters *p)
+{
+	resolve_options(s_u, composite, composite_null, p);
+	ty_set_scale(p, scale);
 }
 
 static void

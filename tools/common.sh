@@ -75,6 +75,10 @@ TEST_PACKAGES="$FUZZ_PACKAGES libgmp-dev python3-scipy gdal-bin"
 QGIS_PACKAGES="python3-qgis"
 BENCH_PACKAGES="libgeos-dev valgrind"
 
+# node, npm and Chromium where they are missing, from wherever those that are there may come
+node_packages() { command -v node >/dev/null && command -v npm >/dev/null || echo nodejs npm; }
+browser_packages() { command -v chromium >/dev/null || echo chromium; }
+
 missing_packages() {
 	local package
 	for package in "$@"; do
@@ -113,10 +117,19 @@ apt_get() {
 
 # --- build and throw-away server ---
 
+# readable_copy FILE: its copy in the workspace, which the server's user may read
+readable_copy() {
+	local folder
+	folder=$(mktemp -d "$WORKSPACE/input.XXXXXX")
+	cp --reflink=auto -L "$1" "$folder/"
+	chmod -R a+rX "$folder"
+	echo "$folder/$(basename "$1")"
+}
+
 # The checkout may lie where the server's user cannot read it, and may hold objects for another server.
 copy_tree() {
 	mkdir "$WORKSPACE/tree"
-	tar -C "$ROOT" --exclude=./.git --exclude=./demo-output --exclude='./tests/*/build*' --exclude='*.o' --exclude='*.d' \
+	tar -C "$ROOT" --exclude=./.git --exclude=./demo-output --exclude='./tests/*/build*' --exclude=./tests/web/node_modules --exclude='*.o' --exclude='*.d' \
 		--exclude='*.so' --exclude='*.bc' -cf - . | tar -C "$WORKSPACE/tree" --no-same-owner -xf -
 	chmod -R a+rX "$WORKSPACE/tree"
 	cd "$WORKSPACE/tree"

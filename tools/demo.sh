@@ -3,15 +3,6 @@
 # pictures; more in demo/run.sh.
 . "$(dirname "$0")/common.sh"
 
-# readable_copy FILE: its copy in the workspace, which the server's user may read
-readable_copy() {
-	local folder
-	folder=$(mktemp -d "$WORKSPACE/input.XXXXXX")
-	cp --reflink=auto -L "$1" "$folder/"
-	chmod -R a+rX "$folder"
-	echo "$folder/$(basename "$1")"
-}
-
 cd "$ROOT"
 DATA=${DATA:-} ROADS=${ROADS:-} OSM=${OSM:-} OUT=$(realpath -m "${OUT:-demo-output}")
 if [ -n "${DATA}" ] && [ -n "${OSM}" ]; then fail "give DATA or OSM, not both"; fi

@@ -6,7 +6,7 @@
 
 choose_version
 make_workspace
-need_packages $SERVER_PACKAGES $PICTURE_PACKAGES $TEST_PACKAGES ${QGIS:+$QGIS_PACKAGES}
+need_packages $SERVER_PACKAGES $PICTURE_PACKAGES $TEST_PACKAGES $(node_packages) $(browser_packages) ${QGIS:+$QGIS_PACKAGES}
 export TYPIFY_DATA=$(realpath -m "${TYPIFY_DATA:-$ROOT/../shared/data}")
 export WORKSPACE TALLY=$WORKSPACE/tally
 : >"$TALLY"

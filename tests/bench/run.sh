@@ -7,6 +7,7 @@
 # TYPIFY_DATA  folder with leipzig_2017; where it is missing the real data set is left out
 # RESULTS      file for "set <tab> figure <tab> value", a line a run: seconds that passed, "... cpu" on the processor, or
 #              "... kB" at the peak
+# TILES        how many tiles of a hierarchy (1000)
 # CORE         the core's benchmark (tests/bench/build/core)
 # PLAN         file for the plan of the two workers
 
@@ -14,6 +15,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 . ./statements.sh
 . ./large.sh
+. ./tiles.sh
 DATABASE=typify_bench
 SPARE=$(mktemp -d)
 trap 'rm -rf "$SPARE"' EXIT
@@ -161,6 +163,7 @@ for set in $SETS; do
 			show_plan $set workers
 			all_runs $set "${OPTIONS[@]}"
 			all_runs $set "${HIERARCHY[@]}"
+			tile_runs $set
 			;;
 	esac
 	sql -c "DROP TABLE IF EXISTS bench_$set, bench_${set}_parts, bench_tree, bench_tree_groups"

@@ -8,7 +8,7 @@ folder=$OWN_FOLDER
 OWN_DATABASES+=(typify_bench)
 
 make -s
-export N=1000 RUNS=2 SETS=towns LARGE= TYPIFY_DATA=none RESULTS=$folder/results PLAN=$folder/plan CORE=$PWD/build/core
+export N=1000 RUNS=2 TILES=20 SETS=towns LARGE= TYPIFY_DATA=none RESULTS=$folder/results PLAN=$folder/plan CORE=$PWD/build/core
 : >"$RESULTS"
 ./run.sh
 "$CORE" shapes 1000 1 >>"$RESULTS"

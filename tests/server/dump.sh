@@ -32,6 +32,8 @@ SELECT typify_create_scale('"A layer"', 'settlement_buildings', 'zz_coarse', 750
 SELECT typify_create_scale('a_of_links', 'settlement_buildings', 'zz_coarse', 200000, links => 'links');
 SELECT typify_create_scale('a_of_a_view', 'zz_seen', NULL, 100000);
 SELECT typify_create_scale('a_table', 'settlement_buildings', 'zz_coarse', 50000, 0.25, 'block', 'table');
+CALL typify_build_hierarchy('a_hierarchy', 'settlement_buildings', 0.5);
+SELECT typify_create_tile_function('maps', 'tiles', 'a_hierarchy', attributes => '{class}');
 -- indexes on expressions, and a constraint
 CREATE TABLE spots (id bigint PRIMARY KEY, number bigint, geom geometry(Point, 25832));
 INSERT INTO spots SELECT id, id * 10, ST_Centroid(geom) FROM settlement_buildings;
@@ -51,6 +53,9 @@ FROM (
 	UNION ALL SELECT 'a_of_a_view', l::text FROM a_of_a_view AS l UNION ALL SELECT 'a_table', l::text FROM a_table AS l
 	UNION ALL SELECT 'spots', l::text FROM spots AS l
 ) AS lines GROUP BY relation ORDER BY relation;
+SELECT format('tile of zoom %s: %s bytes', z, length(tiles(z, x, y)))
+FROM (VALUES (11, 1084, 698), (14, 8673, 5589)) AS tile (z, x, y);
+SELECT obj_description('tiles'::regproc, 'pg_proc');
 SELECT format('%s populated %s', matviewname, ispopulated) FROM pg_matviews WHERE schemaname = 'maps' ORDER BY 1;
 SELECT format('%s: %s', relname, obj_description(oid, 'pg_class')) FROM pg_class
 WHERE obj_description(oid, 'pg_class') IS NOT NULL AND relnamespace = 'maps'::regnamespace ORDER BY 1;

@@ -114,6 +114,16 @@ CREATE TABLE nobody (id bigint, geom geometry(Point, 25832));
 CALL typify_build_hierarchy('none', 'nobody');
 SELECT count(*) AS of_nobody FROM typify_at('none', 50000);
 
+-- names in quotes, in a schema that is on no search_path
+CREATE SCHEMA "My Maps";
+CREATE VIEW "My Maps"."Houses and %" AS SELECT id AS "Id", geom AS "Shape", block AS "In" FROM settlement_buildings WHERE block < 5;
+CALL typify_build_hierarchy('"My Maps"."Tree 1"', '"My Maps"."Houses and %"', 1, 'In', life_spans => 'ranked', id_column => 'Id', geom_column => 'Shape');
+SELECT count(*) - typify_count((SELECT count(*) FROM "My Maps"."Houses and %"), 60000) AS too_many, min(cardinality(members)) AS least FROM typify_at('"My Maps"."Tree 1"', 60000);
+CREATE OR REPLACE VIEW "My Maps"."Houses and %" AS SELECT id AS "Id", geom AS "Shape", block AS "In" FROM settlement_buildings WHERE block < 4 AND id % 9 > 0;
+SELECT count(*) > 0 AS stale FROM typify_refresh_hierarchy('"My Maps"."Tree 1"');
+SELECT count(*) - typify_count((SELECT count(*) FROM "My Maps"."Houses and %"), 60000) AS too_many FROM typify_at('"My Maps"."Tree 1"', 60000);
+DROP SCHEMA "My Maps" CASCADE;
+
 -- bad input
 SELECT pg_temp.error_of(call) FROM unnest(ARRAY[
 	$$SELECT * FROM typify_at(NULL, 50000)$$, $$SELECT * FROM typify_at('settlement_buildings', 50000)$$, $$SELECT * FROM typify_at('town_groups', 50000)$$,

@@ -4,6 +4,7 @@
  */
 #include "check.h"
 #include "group.h"
+#include "hierarchy.h"
 #include "sets.h"
 
 #include <math.h>
@@ -162,6 +163,22 @@ defaults(double s_u)
 static bool weighed;
 static double importance[MOST];
 
+/* the hierarchy of the group instead of its placeholders at a scale */
+static bool all_scales;
+
+static ty_status
+build_hierarchy(const ty_input *input, ty_parameters p)
+{
+	ty_hierarchy h;
+	ty_status status;
+
+	p.min_area = p.keep_area = 0;
+	status = ty_hierarchy_build(&watched, input, &p, &h);
+	if (status == TY_OK)
+		ty_hierarchy_free(&watched, &h);
+	return status;
+}
+
 static void
 weigh(size_t n, ty_parameters *p)
 {
@@ -195,6 +212,8 @@ typify(size_t n, bool *jumped)
 		free_blocks();
 		return TY_OK;
 	}
+	if (all_scales)
+		return build_hierarchy(&input, p);
 	status = ty_typify(&watched, &input, &p, &result);
 	if (status == TY_OK)
 		ty_result_free(&watched, &result);
@@ -314,6 +333,21 @@ every_poll_may_interrupt(void)
 	weighed = false;
 }
 
+static void
+hierarchies_fail_and_stop_as_cleanly(void)
+{
+	all_scales = true;
+	for (size_t n = 1; n <= 1000; n = 9 * n + 1)
+	{
+		fail_each_allocation(LARGE_ONE_POINT, n);
+		weighed = true;
+		fail_each_allocation(LARGE_CLUSTERED, n);
+		weighed = false;
+	}
+	interrupt_each_poll(LARGE_CLUSTERED, 5000);
+	all_scales = false;
+}
+
 /* each building is work: it is ordered at least, so one poll per 4096 of them is the least */
 static void
 polls_are_frequent(void)
@@ -388,6 +422,7 @@ main(int argc, char **argv)
 	RUN(every_allocation_may_fail);
 	RUN(every_allocation_may_leave_by_longjmp);
 	RUN(every_poll_may_interrupt);
+	RUN(hierarchies_fail_and_stop_as_cleanly);
 	RUN(polls_are_frequent);
 	return check_end();
 }
