@@ -49,7 +49,8 @@ COMMENT ON COLUMN typify_options.max_area IS
 'Largest area that a placeholder is enlarged to, mm2 on the map; one that is larger by the unscaled statistic of its members'' areas keeps that. Default 2 * min_side^2 where min_side is set; 0 is no limit.';
 COMMENT ON COLUMN typify_options.keep_area IS 
 'Buildings whose true area on the map is at least this are kept, as those of importance ''Infinity'' are: each in its place, with its own area, whatever it has absorbed; two of them are not merged. mm2 (usual: 0.5); 0, the default, is off. Their number depends on the scale, so the count may not be reached. psi is calibrated without it.';
-COMMENT ON COLUMN typify_options.min_gap IS 'Smallest gap between placeholders, mm on the map. Not supported yet.';
+COMMENT ON COLUMN typify_options.min_gap IS 
+'Smallest gap between placeholders, mm on the map (usual: 0.2); 0 is none, and then they may overlap. Those that are nearer are shrunk to their true size, moved by at most the gap or half their longer side, shrunk to min_side (without min_side no further), and at last merged, so that there may be fewer than the count.';
 COMMENT ON COLUMN typify_options.alignment IS
 'Keeps rows of buildings (see typify_rows): an edge that leaves a row counts 1 + alignment times as long as one inside it, merges go evenly along a row, and what is left of it is laid out evenly on its line. At least 0; default 0, which is off; 4 keeps both sides of a street apart up to a fourth of the buildings. Rows are found among the buildings of a group.';
 COMMENT ON COLUMN typify_options.barriers IS
@@ -70,6 +71,35 @@ CREATE TYPE typify_placeholder AS (
 
 COMMENT ON TYPE typify_placeholder IS
 'A placeholder building. id: of its representative, the member with the largest area. geom: its rectangle, NULL when it has no size and is not drawn. member_count, members: how many and which buildings it represents, ids ascending. area, width, length: square units and units of the SRID. orientation: of the longer side, degrees in [0, 180) counter-clockwise from the x axis.';
+
+CREATE TYPE typify_site AS (
+	id bigint,
+	geom geometry,
+	member_count integer,
+	members bigint[],
+	area double precision,
+	width double precision,
+	length double precision,
+	orientation double precision,
+	site double precision[]
+);
+
+COMMENT ON TYPE typify_site IS
+'A typify_placeholder on its way to where all groups of a layer are made legible. site: numbers that typify_settle understands: where it belongs, how it may be moved and shrunk, and how far it was.';
+
+CREATE TYPE typify_settled AS (
+	id bigint,
+	drawn boolean,
+	geom geometry,
+	width double precision,
+	length double precision,
+	factor double precision,
+	x double precision,
+	y double precision
+);
+
+COMMENT ON TYPE typify_settled IS
+'What typify_settle did to a placeholder. drawn: false where there was no room. geom: its rectangle; NULL for one that is drawn as an outline: that is scaled by factor about the origin and then shifted by x and y. width, length: as they are now.';
 
 CREATE FUNCTION typify_options(
 	source_scale double precision DEFAULT NULL,

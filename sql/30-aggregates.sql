@@ -259,3 +259,68 @@ CREATE AGGREGATE typify_barred(
 
 COMMENT ON AGGREGATE typify_barred(geometry, bigint, double precision, double precision, typify_options, geometry, double precision) IS
 'As typify_placeholders, with barriers beside the options instead of among them, so that options can differ from group to group without a copy of the barriers in each. Pass them as a scalar sub-select. Errors: as of typify_placeholders; 22023 for barriers in both places.';
+
+CREATE FUNCTION typify_sites_final(internal)
+RETURNS typify_site[]
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10000;
+
+COMMENT ON FUNCTION typify_sites_final(internal) IS
+'Support of typify_sites: typifies the buildings of a group.';
+
+CREATE AGGREGATE typify_sites(
+	geom geometry,
+	id bigint,
+	scale double precision,
+	s_u double precision,
+	options typify_options,
+	barriers geometry,
+	importance double precision)
+(
+	SFUNC = typify_barred_transition,
+	STYPE = internal,
+	SSPACE = 1024,
+	FINALFUNC = typify_sites_final,
+	COMBINEFUNC = typify_combine,
+	SERIALFUNC = typify_serialize,
+	DESERIALFUNC = typify_deserialize,
+	PARALLEL = SAFE
+);
+
+COMMENT ON AGGREGATE typify_sites(geometry, bigint, double precision, double precision, typify_options, geometry, double precision) IS
+'As typify_barred, with what typify_settle needs to make the placeholders of several groups legible together.';
+
+CREATE FUNCTION typify_settle_transition(internal, bigint, integer, integer, integer, double precision[], geometry)
+RETURNS internal
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
+
+COMMENT ON FUNCTION typify_settle_transition(internal, bigint, integer, integer, integer, double precision[], geometry) IS
+'Support of typify_settle: takes in a placeholder.';
+
+CREATE FUNCTION typify_settle_final(internal)
+RETURNS typify_settled[]
+AS 'MODULE_PATHNAME'
+LANGUAGE C IMMUTABLE PARALLEL SAFE COST 100000;
+
+COMMENT ON FUNCTION typify_settle_final(internal) IS
+'Support of typify_settle: makes the placeholders legible.';
+
+CREATE AGGREGATE typify_settle(
+	id bigint,
+	grp integer,
+	member_count integer,
+	srid integer,
+	site double precision[],
+	barriers geometry)
+(
+	SFUNC = typify_settle_transition,
+	STYPE = internal,
+	SSPACE = 16384,
+	FINALFUNC = typify_settle_final,
+	PARALLEL = SAFE
+);
+
+COMMENT ON AGGREGATE typify_settle(bigint, integer, integer, integer, double precision[], geometry) IS
+'Makes the drawn placeholders of all groups of a layer legible together (options.min_gap), where each group is so by itself: id, which differs from row to row, a number of the group, member_count, the SRID, the field site of typify_site, and barriers, the same for all rows or NULL. Placeholders of different groups are not merged: they are shrunk, moved or, last, one of two is not drawn, that with more conflicts, then with fewer members, which is said in a WARNING. Returns those that something was done to; NULL without min_gap or a row. The same set of rows gives the same answer. Rows with a NULL are passed over. Errors: 22023 for a site that is none; 22003 for coordinates that are too large.';
+

@@ -169,8 +169,98 @@ COMMENT ON FUNCTION typify_plan(regclass, regclass, double precision, double pre
 	text, name, name, name, name, name, regclass, text[], regclass, name, name) IS
 'What typify_derive, whose arguments these are, does before it draws. source: of the buildings, at least those of the groups asked for; barriers: all that these groups may touch; levels: these groups, by the bytes of their names, the NULL group last, each with its options, NULL when there is none; hidden: the keys (typify_group_key) of those that get no placeholder, and are one row that is not drawn.';
 
+CREATE FUNCTION typify_draw_sites(source text, scale double precision, s_u double precision,
+	levels typify_calibration[], hidden text[], barriers geometry)
+RETURNS TABLE (
+	id bigint,
+	geom geometry,
+	member_count integer,
+	members bigint[],
+	area double precision,
+	width double precision,
+	length double precision,
+	orientation double precision,
+	grp text,
+	site double precision[])
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+SET jit = off
+SET datestyle = ISO
+SET intervalstyle = postgres
+SET timezone = 'UTC'
+SET bytea_output = hex
+SET extra_float_digits = 1
+AS $$
+BEGIN
+	RETURN QUERY EXECUTE format(
+		'SELECT p.id, CASE WHEN shown THEN p.geom END, p.member_count, p.members, CASE WHEN shown THEN p.area ELSE 0 END,
+			CASE WHEN shown THEN p.width ELSE 0 END, CASE WHEN shown THEN p.length ELSE 0 END, p.orientation, g.grp,
+			CASE WHEN shown AND p.geom IS NOT NULL THEN p.site END
+		FROM (SELECT l.grp, typify_sites(b.geom, b.id, $1, $2, l.options, (SELECT $5), b.importance) AS list
+			FROM %s AS b JOIN unnest($3) AS l ON typify_group_key(l.grp) = typify_group_key(b.grp)
+			GROUP BY l.grp) AS g
+		CROSS JOIN LATERAL unnest(g.list) AS p
+		CROSS JOIN LATERAL (SELECT (typify_group_key(g.grp) = ANY ($4)) IS NOT TRUE AS shown) AS either', source)
+		USING scale, s_u, levels, hidden, barriers;
+END $$;
+COMMENT ON FUNCTION typify_draw_sites(text, double precision, double precision, typify_calibration[], text[], geometry) IS
+'The rows of typify_derive, as typify_plan says, with each group legible by itself, and the field site of typify_site where a row is drawn.';
+
+CREATE FUNCTION typify_settled_geometry(geom geometry, settled typify_settled) RETURNS geometry
+LANGUAGE sql IMMUTABLE PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT CASE WHEN (settled).id IS NULL THEN geom WHEN NOT (settled).drawn THEN NULL
+		WHEN (settled).geom IS NOT NULL THEN (settled).geom
+		ELSE ST_Affine(geom, (settled).factor, 0, 0, (settled).factor, (settled).x, (settled).y) END;
+END;
+COMMENT ON FUNCTION typify_settled_geometry(geometry, typify_settled) IS
+'The polygon of a placeholder after typify_settle; the one before where nothing was done to it.';
+
+CREATE FUNCTION typify_settled_area(area double precision, settled typify_settled) RETURNS double precision
+LANGUAGE sql IMMUTABLE PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT CASE WHEN (settled).id IS NULL THEN area WHEN NOT (settled).drawn THEN 0
+		WHEN (settled).geom IS NOT NULL THEN (settled).width * (settled).length
+		ELSE area * (settled).factor * (settled).factor END;
+END;
+COMMENT ON FUNCTION typify_settled_area(double precision, typify_settled) IS
+'The area of a placeholder after typify_settle; the one before where nothing was done to it.';
+
+CREATE FUNCTION typify_draw_layer(source text, scale double precision, s_u double precision,
+	levels typify_calibration[], hidden text[], barriers geometry)
+RETURNS TABLE (
+	id bigint,
+	geom geometry,
+	member_count integer,
+	members bigint[],
+	area double precision,
+	width double precision,
+	length double precision,
+	orientation double precision,
+	grp text)
+LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
+SET search_path FROM CURRENT
+SET jit = off
+AS $$
+BEGIN
+	RETURN QUERY
+		WITH drawn AS MATERIALIZED (
+			SELECT * FROM typify_draw_sites(source, scale, s_u, levels, hidden, barriers)
+		), settled AS MATERIALIZED (
+			SELECT s FROM unnest((
+				SELECT typify_settle(n.id, n.number::integer, n.member_count, ST_SRID(n.geom), n.site, (SELECT typify_draw_layer.barriers))
+				FROM (SELECT *, dense_rank() OVER (ORDER BY typify_group_key(d.grp)) AS number FROM drawn AS d
+					WHERE d.site IS NOT NULL) AS n)) AS s
+		)
+		SELECT d.id, typify_settled_geometry(d.geom, s), d.member_count, d.members, typify_settled_area(d.area, s),
+			coalesce((s).width, d.width), coalesce((s).length, d.length), d.orientation, d.grp
+		FROM drawn AS d LEFT JOIN settled ON (s).id = d.id;
+END $$;
+COMMENT ON FUNCTION typify_draw_layer(text, double precision, double precision, typify_calibration[], text[], geometry) IS
+'The rows of typify_derive, as typify_plan says, with the placeholders of all groups legible together.';
+
 CREATE FUNCTION typify_draw(source text, scale double precision, s_u double precision, levels typify_calibration[],
-	hidden text[], grouped boolean, barriers geometry)
+	hidden text[], grouped boolean, barriers geometry, whole boolean)
 RETURNS TABLE (
 	id bigint,
 	geom geometry,
@@ -193,6 +283,9 @@ AS $$
 BEGIN
 	IF levels IS NULL THEN
 		RETURN;
+	ELSIF whole AND grouped AND (levels[1].options).min_gap > 0 THEN
+		RETURN QUERY SELECT * FROM typify_draw_layer(source, scale, s_u, levels, hidden, barriers);
+		RETURN;
 	END IF;
 	RETURN QUERY
 		SELECT p.id, CASE WHEN shown THEN p.geom END, p.member_count, p.members, CASE WHEN shown THEN p.area ELSE 0 END,
@@ -201,8 +294,9 @@ BEGIN
 		CROSS JOIN LATERAL unnest(g.list) AS p
 		CROSS JOIN LATERAL (SELECT (typify_group_key(g.grp) = ANY (hidden)) IS NOT TRUE AS shown) AS either;
 END $$;
-COMMENT ON FUNCTION typify_draw(text, double precision, double precision, typify_calibration[], text[], boolean, geometry) IS
-'The rows of typify_derive, as typify_plan says. grouped: false takes everything as one group.';
+COMMENT ON FUNCTION typify_draw(text, double precision, double precision, typify_calibration[], text[], boolean, geometry,
+	boolean) IS
+'The rows of typify_derive, as typify_plan says. grouped: false takes everything as one group. whole: these are all groups, whose placeholders options.min_gap keeps apart across groups too.';
 
 CREATE FUNCTION typify_derive(
 	lod25 regclass,
@@ -243,14 +337,15 @@ BEGIN
 		lod200_id_column, lod200_geom_column, lod200_group_by, links, groups, barriers, barriers_geom_column,
 		importance_column);
 	RETURN QUERY SELECT * FROM typify_draw(plan.source, scale, s_u, plan.levels, plan.hidden,
-		group_by IS NOT NULL OR links IS NOT NULL, plan.barriers);
+		group_by IS NOT NULL OR links IS NOT NULL, plan.barriers, box IS NULL AND groups IS NULL);
 END $$;
 COMMENT ON FUNCTION typify_derive(regclass, regclass, double precision, double precision, name, geometry,
 	typify_options, text, name, name, name, name, name, regclass, text[], regclass, name, name) IS
 'The placeholders of a table of buildings at any scale (its denominator, at least source_scale), calibrated as typify_calibrate does with lod200, the stored coarse level, or, where lod200 is NULL, with options as they are. Rows in no particular order: the fields of typify_placeholder (id: of the representative, and so a key of the layer), and grp, the group as text.
 group_by: a column of lod25, of any type; each of its values is typified by itself, NULL too. links: a table or view with lod25_id and lod200_id, as typify_match returns, instead: lod200_id is the group, and buildings without a link are the NULL group; at m200 each group with an object of lod200 is one placeholder of its area.
 allocation: each_group gives every group its own count, as the aggregate does. total divides the count of the whole table at the scale by largest remainders, in proportion to what the law leaves of each group in real numbers, equal remainders by the bytes of the group''s name. A group may get none: it is one row with geom NULL, area, width and length 0, all its buildings as members.
-box: only groups that have a building whose bounding box meets that of box, each whole. groups: only these groups (an element NULL is the NULL group). The rows are the same as without either.
+box: only groups that have a building whose bounding box meets that of box, each whole. groups: only these groups (an element NULL is the NULL group). The rows are the same as without either, unless options.min_gap is set.
+options.min_gap: with neither box nor groups placeholders are kept apart over the whole table. Those of different groups are not merged but shrunk, moved or, last, not drawn (geom NULL, with a WARNING). With box or groups each group is legible by itself.
 barriers: a table or view of roads, rivers, railways (its column barriers_geom_column, lines or polygons) that nothing is merged across: those that are drawn at the scale. The same as the option barriers, which goes without a table; calibration heeds them too.
 importance_column: a column of lod25 with numbers, the importance of each building as typify_placeholders takes it: ''Infinity'' keeps it in place and in size.
 Columns, groups of lod200 and what options keep: see typify_calibrate. lod25 and lod200 may be tables, views, materialized, partitioned or foreign tables; NULL and EMPTY geometries do not count. No row when lod25 has no building.

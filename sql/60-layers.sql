@@ -51,6 +51,18 @@ $$;
 COMMENT ON FUNCTION typify_layer_name(name, text) IS
 'Schema and name, quoted where needed, of a layer to be: name is written as in SQL, its schema may be left out and is then caller_schema. Errors: 22004 for a NULL name; 42602 for a text that is no name or has more than two parts; 42622 above 63 bytes; 3F000 for a schema that is missing.';
 
+CREATE FUNCTION typify_legible_options(options typify_options) RETURNS typify_options
+LANGUAGE sql IMMUTABLE PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT typify_options((options).source_scale, (options).lod200_scale, (options).exponent, (options).psi,
+		(options).count, (options).min_distance, (options).count_rule, (options).area_statistic, (options).shape,
+		(options).min_area, coalesce((options).min_side, 0.35), (options).max_area, (options).keep_area,
+		coalesce((options).min_gap, 0.2), (options).alignment, (options).barriers, (options).barrier_width);
+END;
+
+COMMENT ON FUNCTION typify_legible_options(typify_options) IS
+'Options with a min_side of 0.35 mm and a min_gap of 0.2 mm where they set none. Errors: as of typify_options.';
+
 CREATE FUNCTION typify_layer_definition(lod25 regclass, lod200 regclass, scale double precision, s_u double precision,
 	group_by name, options typify_options, allocation text, id_column name, geom_column name,
 	lod200_id_column name, lod200_geom_column name, lod200_group_by name, links regclass, barriers regclass,
@@ -186,18 +198,38 @@ $$;
 COMMENT ON FUNCTION typify_layer_create_table(text, json, text) IS
 'An empty table for a layer, with its comment, its key and the index on grp.';
 
+CREATE FUNCTION typify_layer_is_settled(definition jsonb) RETURNS boolean
+LANGUAGE sql IMMUTABLE PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT coalesce((definition->'options'->>'min_gap')::double precision > 0, false)
+		AND (definition->>'group_by' IS NOT NULL OR definition->>'links' IS NOT NULL);
+END;
+
+COMMENT ON FUNCTION typify_layer_is_settled(jsonb) IS
+'Whether the placeholders of different groups of a layer are kept apart: options.min_gap is set, and there are groups.';
+
+CREATE FUNCTION typify_layer_has_sites(layer regclass) RETURNS boolean
+LANGUAGE sql STABLE PARALLEL SAFE
+BEGIN ATOMIC
+	SELECT EXISTS (SELECT FROM pg_attribute WHERE attrelid = layer AND attname = 'site' AND NOT attisdropped);
+END;
+
+COMMENT ON FUNCTION typify_layer_has_sites(regclass) IS
+'Whether a table layer is being built whose groups are still to be kept apart: until then it has a column site, as of typify_site.';
+
 CREATE FUNCTION typify_layer_replace(layer regclass, groups text[], derived text) RETURNS bigint
 LANGUAGE plpgsql
 SET search_path FROM CURRENT AS
 $$
 DECLARE
 	rows bigint;
+	columns text := 'id, geom, member_count, members, area, width, length, orientation, grp'
+		|| CASE WHEN derived LIKE 'typify_draw_sites(%' THEN ', site' ELSE '' END;
 BEGIN
 	EXECUTE format('DELETE FROM %s WHERE $1 IS NULL OR grp = ANY ($1) OR grp IS NULL AND array_position($1, NULL) > 0',
 		typify_table_name(layer, 'name')) USING groups;
-	EXECUTE format('INSERT INTO %s (id, geom, member_count, members, area, width, length, orientation, grp) '
-		'SELECT id, geom, member_count, members, area, width, length, orientation, grp FROM %s',
-		typify_table_name(layer, 'name'), derived) USING groups;
+	EXECUTE format('INSERT INTO %s (%s) SELECT %2$s FROM %s', typify_table_name(layer, 'name'), columns, derived)
+		USING groups;
 	GET DIAGNOSTICS rows = ROW_COUNT;
 	RETURN rows;
 EXCEPTION WHEN unique_violation THEN
@@ -212,6 +244,32 @@ $$;
 
 COMMENT ON FUNCTION typify_layer_replace(regclass, text[], text) IS
 'Replaces the rows of these groups of a table layer (NULL: all) by others, and returns their number. derived: SQL that gives them and takes the groups as $1. Error 23505 when the id of a new row stands in a group that is not among them.';
+
+CREATE FUNCTION typify_layer_update(layer regclass, derived text) RETURNS bigint
+LANGUAGE plpgsql
+SET search_path FROM CURRENT AS
+$$
+DECLARE
+	rows bigint;
+BEGIN
+	EXECUTE format('WITH new AS MATERIALIZED (SELECT * FROM %2$s AS derived), '
+		'gone AS (DELETE FROM %1$s AS old WHERE NOT EXISTS (SELECT FROM new WHERE new.id = old.id)) '
+		'INSERT INTO %1$s AS old (id, geom, member_count, members, area, width, length, orientation, grp) '
+		'SELECT id, geom, member_count, members, area, width, length, orientation, grp FROM new '
+		'ON CONFLICT (id) DO UPDATE SET (geom, member_count, members, area, width, length, orientation, grp) = '
+		'ROW(excluded.geom, excluded.member_count, excluded.members, excluded.area, excluded.width, excluded.length, '
+			'excluded.orientation, excluded.grp) '
+		'WHERE (old.geom::bytea, old.member_count, old.members, old.area, old.width, old.length, old.orientation, old.grp) '
+			'IS DISTINCT FROM (excluded.geom::bytea, excluded.member_count, excluded.members, excluded.area, '
+			'excluded.width, excluded.length, excluded.orientation, excluded.grp)',
+		typify_table_name(layer, 'name'), derived);
+	GET DIAGNOSTICS rows = ROW_COUNT;
+	RETURN rows;
+END
+$$;
+
+COMMENT ON FUNCTION typify_layer_update(regclass, text) IS
+'Makes the rows of a table layer those that SQL derives, and returns how many it wrote: only rows that differ are touched.';
 
 CREATE FUNCTION typify_layer_is_calibrated(definition jsonb) RETURNS boolean
 LANGUAGE sql IMMUTABLE PARALLEL SAFE
@@ -334,6 +392,9 @@ BEGIN
 	SELECT json_object_agg(key, value) INTO definition
 	FROM json_each(obj_description(layer, 'pg_class')::json) WHERE key <> 'finished';
 	EXECUTE format('COMMENT ON %s %s IS %L', kind, name, definition);
+	IF typify_layer_has_sites(layer) THEN
+		EXECUTE format('ALTER TABLE %s DROP COLUMN site', name);
+	END IF;
 	IF typify_layer_index(layer, 'geom') IS NULL THEN
 		EXECUTE format('CREATE INDEX ON %s USING gist (geom)', name);
 	END IF;
@@ -342,7 +403,7 @@ END
 $$;
 
 COMMENT ON FUNCTION typify_layer_finish(regclass) IS
-'What a layer gets when its rows are there: the spatial index, statistics, a comment without "finished".';
+'What a layer gets when its rows are there: the spatial index, statistics, a comment without "finished", no column that only its building needed.';
 
 CREATE FUNCTION typify_layer_create(caller_schema name, name text, kind text, definition json) RETURNS regclass
 LANGUAGE plpgsql
@@ -414,13 +475,13 @@ RETURNS regclass
 LANGUAGE sql
 BEGIN ATOMIC
 	SELECT typify_layer_create(current_schema(), name, kind, typify_layer_definition(lod25, lod200, scale, s_u,
-		group_by, options, allocation, id_column, geom_column, lod200_id_column, lod200_geom_column, lod200_group_by,
-		links, barriers, barriers_geom_column, importance_column));
+		group_by, typify_legible_options(options), allocation, id_column, geom_column, lod200_id_column,
+		lod200_geom_column, lod200_group_by, links, barriers, barriers_geom_column, importance_column));
 END;
 
 COMMENT ON FUNCTION typify_create_scale(text, regclass, regclass, double precision, double precision, name, text,
 	typify_options, text, name, name, name, name, name, regclass, regclass, name, name) IS
-'Creates a layer: the placeholders of typify_derive at one scale, stored, and returns it. name is written as in SQL, with or without a schema; kind is ''materialized view'' or ''table''; all other arguments are those of typify_derive. The layer has its columns, a unique index on id (the id of the representative, which does not change when buildings elsewhere do), geom of type geometry(Polygon, SRID) with a spatial index, for tables an index on grp, and a JSON comment that says how it was derived. It is dropped by DROP. Errors: 42P07 when the name is taken; 42602, 42622, 3F000 for a name that is none, is too long or has a schema that is missing; 22023 for another kind; 22004 for a NULL where a value is needed; 0A000 for a materialized view of a temporary table; those of typify_derive.';
+'Creates a layer: the placeholders of typify_derive at one scale, stored, and returns it. name is written as in SQL, with or without a schema; kind is ''materialized view'' or ''table''; all other arguments are those of typify_derive. Options leave it legible: min_side is 0.35 and min_gap 0.2 mm on the map unless they say otherwise, 0 turns either off. The layer has its columns, a unique index on id (the id of the representative, which does not change when buildings elsewhere do), geom of type geometry(Polygon, SRID) with a spatial index, for tables an index on grp, and a JSON comment that says how it was derived. It is dropped by DROP. Errors: 42P07 when the name is taken; 42602, 42622, 3F000 for a name that is none, is too long or has a schema that is missing; 22023 for another kind; 22004 for a NULL where a value is needed; 0A000 for a materialized view of a temporary table; those of typify_derive.';
 
 CREATE FUNCTION typify_refresh_scale(name regclass, concurrently boolean DEFAULT false) RETURNS void
 LANGUAGE plpgsql
@@ -488,12 +549,15 @@ BEGIN
 		-- nothing is taken from LOD200, so it need not be read
 		definition := definition || '{"lod200": null, "lod200_group_by": null}';
 	END IF;
+	IF typify_layer_is_settled(definition) THEN
+		RETURN typify_layer_update(name, typify_layer_call(definition, 'typify_derive'));
+	END IF;
 	RETURN typify_layer_replace(name, groups, typify_layer_call(definition, 'typify_derive', '$1'));
 END
 $$;
 
 COMMENT ON FUNCTION typify_refresh_groups(regclass, text[]) IS
-'Derives groups of a table layer anew and returns the number of rows written. groups: those in which buildings were added, changed, moved or removed, as text (a NULL element is the NULL group); a group that is no longer there loses its rows. Afterwards the layer has the rows that deriving it anew would give: groups whose calibration moved with the change are refreshed as well, that is, all that use the overall values, and those whose LOD200 objects changed. Where options give both exponent and psi, or without LOD200, nothing is calibrated and only the groups named are touched. Errors: 42809 for what is no layer or is a materialized view; 0A000 for a layer whose allocation is total; 55000 for one that typify_build_scale has not finished; 23505 when a building that came from a group that is not named represents a placeholder there; 42P01 when a table from which it is derived is there no more; 22004 for NULL.';
+'Derives groups of a table layer anew and returns the number of rows written. groups: those in which buildings were added, changed, moved or removed, as text (a NULL element is the NULL group); a group that is no longer there loses its rows. Afterwards the layer has the rows that deriving it anew would give: groups whose calibration moved with the change are refreshed as well, that is, all that use the overall values, and those whose LOD200 objects changed. Where options give both exponent and psi, or without LOD200, nothing is calibrated and only the groups named are touched. With min_gap, which layers have unless it was turned off, and groups a change moves neighbours in others: then everything is derived, and the rows that differ are written. Errors: 42809 for what is no layer or is a materialized view; 0A000 for a layer whose allocation is total; 55000 for one that typify_build_scale has not finished; 23505 when a building that came from a group that is not named represents a placeholder there; 42P01 when a table from which it is derived is there no more; 22004 for NULL.';
 
 CREATE FUNCTION typify_layer_state(definition jsonb) RETURNS bigint
 LANGUAGE plpgsql STABLE PARALLEL RESTRICTED
@@ -574,6 +638,9 @@ BEGIN
 		FROM (SELECT key, value FROM json_each(definition) UNION ALL SELECT 'finished', 'false') AS pair;
 		layer := typify_layer_create_table(layer_name, definition,
 			typify_layer_geometry(definition::jsonb));
+		IF typify_layer_is_settled(definition::jsonb) THEN
+			EXECUTE format('ALTER TABLE %s ADD COLUMN site float8[]', layer);
+		END IF;
 	END IF;
 	current := jsonb_build_object('state', typify_layer_state(definition::jsonb))
 		|| CASE WHEN typify_layer_is_calibrated(definition::jsonb)
@@ -625,8 +692,11 @@ BEGIN
 	FROM jsonb_array_elements(plan) AS one WHERE typify_group_key(one->>0) = ANY (keys);
 	IF levels IS NOT NULL THEN
 		PERFORM typify_layer_replace(layer, todo, format(
-			'typify_draw(%1$L, %2$L::float8, %3$L::float8, %4$L::typify_calibration[], %5$L::text[], %6$L::boolean, '
-			'typify_barrier_lines(%7$L::regclass, %8$L, %9$L::typify_options, NULL, typify_surroundings(%1$L, $1, %2$L)))',
+			CASE WHEN typify_layer_has_sites(layer)
+				THEN 'typify_draw_sites(%1$L, %2$L::float8, %3$L::float8, %4$L::typify_calibration[], %5$L::text[], '
+				ELSE 'typify_draw(%1$L, %2$L::float8, %3$L::float8, %4$L::typify_calibration[], %5$L::text[], %6$L::boolean, ' END
+			|| 'typify_barrier_lines(%7$L::regclass, %8$L, %9$L::typify_options, NULL, typify_surroundings(%1$L, $1, %2$L))'
+			|| CASE WHEN typify_layer_has_sites(layer) THEN ')' ELSE ', false)' END,
 			typify_layer_source(definition, todo), definition->>'scale', definition->>'s_u', levels, hidden,
 			definition->>'group_by' IS NOT NULL OR definition->>'links' IS NOT NULL, definition->>'barriers',
 			definition->>'barriers_geom_column', base));
@@ -641,15 +711,27 @@ CREATE FUNCTION typify_layer_complete(layer regclass) RETURNS void
 LANGUAGE plpgsql
 SET search_path FROM CURRENT AS
 $$
+DECLARE
+	definition jsonb := typify_layer(layer);
+	base typify_options;
 BEGIN
 	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
+	IF typify_layer_has_sites(layer) THEN
+		EXECUTE format('UPDATE %1$s AS d SET geom = typify_settled_geometry(d.geom, s), area = typify_settled_area(d.area, s), '
+			'width = (s).width, length = (s).length '
+			'FROM unnest((SELECT typify_settle(id, number::integer, member_count, ST_SRID(geom), site, (SELECT $1)) '
+			'FROM (SELECT *, dense_rank() OVER (ORDER BY typify_group_key(grp)) AS number FROM %1$s WHERE site IS NOT NULL) '
+				'AS n)) AS s WHERE (s).id = d.id', layer)
+		USING typify_barrier_lines((definition->>'barriers')::regclass, (definition->>'barriers_geom_column')::name,
+			jsonb_populate_record(base, nullif(definition->'options', 'null')), NULL);
+	END IF;
 	PERFORM typify_layer_keep_shares(layer,
 		nullif(typify_layer_comment(typify_layer_index(layer, 'grp')) - 'plan' - 'state', '{}'));
 	PERFORM typify_layer_finish(layer);
 END
 $$;
 
-COMMENT ON FUNCTION typify_layer_complete(regclass) IS 'The end of typify_build_scale: the layer is one like any other.';
+COMMENT ON FUNCTION typify_layer_complete(regclass) IS 'The end of typify_build_scale: the placeholders of all groups are kept apart, and the layer is one like any other.';
 
 -- A procedure that commits cannot set a search_path, so it asks where typify is. What comes before the first COMMIT
 -- leaves nothing behind when it fails.
@@ -681,7 +763,7 @@ DECLARE
 	done integer := 0;
 BEGIN
 	EXECUTE format('SELECT * FROM %1$s.typify_layer_begin(current_schema(), $1, %1$s.typify_layer_definition($2, $3, $4, '
-		'$5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $16, $17, $18), $15)', typify)
+		'$5, $6, %1$s.typify_legible_options($7), $8, $9, $10, $11, $12, $13, $14, $16, $17, $18), $15)', typify)
 	INTO layer, number USING name, lod25, lod200, scale, s_u, group_by, options, allocation, id_column, geom_column,
 		lod200_id_column, lod200_geom_column, lod200_group_by, links, batch, barriers, barriers_geom_column,
 		importance_column;

@@ -18,6 +18,7 @@
 #include "core/mesh.h"
 #include "geometry.h"
 #include "hierarchy.h"
+#include "layer.h"
 #include "options.h"
 #include "partial.h"
 #include "progress.h"
@@ -136,6 +137,34 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 /* From this many buildings on, what their mesh took is given back before the result's value is made. */
 #define LARGE_GROUP 100000
 
+/* What is not as asked for. */
+static void
+warn_of_result(const ty_state *s, const ty_result *result)
+{
+	size_t undrawn = result->undrawn - result->hidden;
+
+	if (undrawn > 0)
+		ereport(
+			WARNING,
+			errmsg_plural("%zu placeholder has no size and is not drawn",
+						  "%zu placeholders have no size and are not drawn", undrawn, undrawn),
+			errhint(
+				"Points, lines and polygons without area have none; with psi => 1 nothing has from lod200_scale on."));
+	if (result->hidden > 0)
+		ereport(WARNING,
+				errmsg_plural("there is no room for %zu placeholder, which is not drawn",
+							  "there is no room for %zu placeholders, which are not drawn", result->hidden,
+							  result->hidden),
+				errhint("Use a smaller min_side, min_gap or barrier_width, or fewer barriers."));
+	if (result->collisions > 0)
+		ereport(WARNING,
+				errmsg_plural("%zu pair of kept buildings is nearer to each other than min_gap",
+							  "%zu pairs of kept buildings are nearer to each other than min_gap", result->collisions,
+							  result->collisions),
+				errdetail("The first are %lld and %lld.", (long long) s->buildings[result->colliding[0]].id,
+						  (long long) s->buildings[result->colliding[1]].id));
+}
+
 static ty_input
 input_of(const ty_state *s)
 {
@@ -159,13 +188,7 @@ state_typify(const ty_state *s, ty_result *result)
 		ty_check_outlines(result, s->outlines, s->geometry_type);
 	if (s->count >= LARGE_GROUP)
 		ty_trim_memory();
-	if (result->undrawn > 0)
-		ereport(
-			WARNING,
-			errmsg_plural("%zu placeholder has no size and is not drawn",
-						  "%zu placeholders have no size and are not drawn", result->undrawn, result->undrawn),
-			errhint(
-				"Points, lines and polygons without area have none; with psi => 1 nothing has from lod200_scale on."));
+	warn_of_result(s, result);
 }
 
 /* Numbers that sort as the ids do. */
@@ -203,6 +226,10 @@ check_ids(const ty_state *s)
 	pfree(unused);
 }
 
+#define SITE_ARRAY_SIZE (ARR_OVERHEAD_NONULLS(1) + SITE_NUMBERS * sizeof(float8))
+#define SITE_SIZE_BOUND (SITE_ARRAY_SIZE + MAXIMUM_ALIGNOF)
+/* the field of the composite typify_site that comes after those of typify_placeholder */
+#define FIELD_SITE TY_PLACEHOLDER_FIELDS
 #define MEMBERS_SIZE(count) (ARR_OVERHEAD_NONULLS(1) + (size_t) (count) * sizeof(int64))
 /* what a row takes at most besides geometry and members */
 #define ROW_SIZE (TY_ROW_OVERHEAD + 6 * sizeof(float8))
@@ -213,9 +240,11 @@ typedef struct row_writer
 	ty_row_array rows;
 	const ty_state *group;
 	const ty_result *result;
-	void *polygon;		/* TY_POLYGON_DATUM_SIZE bytes, used for every row */
-	ArrayType *members; /* room for the largest placeholder's */
-	uint32 *unused;		/* as long, zero: what their sort moves along */
+	void *polygon;					 /* TY_POLYGON_DATUM_SIZE bytes, used for every row */
+	ArrayType *members;				 /* room for the largest placeholder's */
+	uint32 *unused;					 /* as long, zero: what their sort moves along */
+	const ty_parameters *parameters; /* in ground units, where rows have a site; else NULL */
+	ArrayType *site;				 /* its numbers */
 } row_writer;
 
 /* of the polygon's value */
@@ -237,12 +266,15 @@ rows_size(const ty_state *s, const ty_result *result)
 }
 
 static void
-writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result)
+writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result,
+			 const ty_parameters *site_parameters)
 {
+	bool sited = site_parameters != NULL;
 	uint32 most = 0;
 
-	ty_row_array_begin(&writer->rows, fcinfo, TY_PLACEHOLDER_FIELDS, "typify_placeholder", rows_size(s, result),
-					   result->count);
+	ty_row_array_begin(&writer->rows, fcinfo, TY_PLACEHOLDER_FIELDS + sited,
+					   sited ? "typify_site" : "typify_placeholder",
+					   rows_size(s, result) + (sited ? result->count * SITE_SIZE_BOUND : 0), result->count);
 	for (size_t k = 0; k < result->count; k++)
 		most = Max(most, result->placeholders[k].count);
 	writer->group = s;
@@ -250,6 +282,25 @@ writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, con
 	writer->polygon = palloc(TY_POLYGON_DATUM_SIZE);
 	writer->members = palloc(MEMBERS_SIZE(most));
 	writer->unused = palloc0(most * sizeof(uint32));
+	writer->parameters = site_parameters;
+	writer->site = palloc0(SITE_ARRAY_SIZE);
+	ty_array_header(writer->site, SITE_ARRAY_SIZE, FLOAT8OID, SITE_NUMBERS);
+}
+
+/* The placeholder's numbers, as an array that the next call overwrites. */
+static Datum
+writer_site(row_writer *writer, const ty_placeholder *placeholder)
+{
+	const ty_state *s = writer->group;
+	ty_input input = input_of(s);
+	ty_site site;
+
+	if (writer->result->sites != NULL)
+		site = writer->result->sites[placeholder - writer->result->placeholders];
+	else
+		ty_placeholder_site(writer->parameters, &input, placeholder, &site);
+	ty_site_to_numbers(&site, placeholder->outlined, writer->parameters, (double *) ARR_DATA_PTR(writer->site));
+	return PointerGetDatum(writer->site);
 }
 
 /* The ids of the placeholder's members, ascending, as an array that the next call overwrites. */
@@ -291,6 +342,11 @@ writer_add(row_writer *writer, const ty_placeholder *placeholder)
 						  writer->rows.nulls);
 	values[TY_PLACEHOLDER_MEMBERS] = writer_members(writer, placeholder);
 	writer->rows.nulls[TY_PLACEHOLDER_MEMBERS] = false;
+	if (writer->parameters != NULL)
+	{
+		values[FIELD_SITE] = writer_site(writer, placeholder);
+		writer->rows.nulls[FIELD_SITE] = false;
+	}
 	ty_row_array_add(&writer->rows);
 	if (polygon != (Datum) 0 && placeholder->outlined)
 		pfree(DatumGetPointer(polygon));
@@ -301,16 +357,18 @@ writer_end(row_writer *writer)
 {
 	pfree(writer->polygon);
 	pfree(writer->members);
+	pfree(writer->site);
 	pfree(writer->unused);
 	return ty_row_array_end(&writer->rows);
 }
 
 static Datum
-placeholder_array(FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result)
+placeholder_array(FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result,
+				  const ty_parameters *site_parameters)
 {
 	row_writer writer;
 
-	writer_begin(&writer, fcinfo, s, result);
+	writer_begin(&writer, fcinfo, s, result, site_parameters);
 	for (size_t k = 0; k < result->count; k++)
 	{
 		CHECK_FOR_INTERRUPTS();
@@ -473,7 +531,28 @@ typify_placeholders_final(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	check_ids(s);
 	state_typify(s, &result);
-	array = placeholder_array(fcinfo, s, &result);
+	array = placeholder_array(fcinfo, s, &result, NULL);
+	ty_result_free(&ty_backend_environment, &result);
+	PG_RETURN_DATUM(array);
+}
+
+PG_FUNCTION_INFO_V1(typify_sites_final);
+Datum
+typify_sites_final(PG_FUNCTION_ARGS)
+{
+	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
+	ty_parameters parameters;
+	ty_result result;
+	Datum array;
+
+	aggregate_context(fcinfo);
+	if (s == NULL)
+		PG_RETURN_NULL();
+	check_ids(s);
+	state_typify(s, &result);
+	parameters = s->parameters;
+	ty_bring_to_ground(&parameters, s->metres_per_unit);
+	array = placeholder_array(fcinfo, s, &result, &parameters);
 	ty_result_free(&ty_backend_environment, &result);
 	PG_RETURN_DATUM(array);
 }

@@ -93,7 +93,7 @@ static const option_entry entries[OPTIONS] = {
 	{.name = "min_side", .kind = NUMBER_FROM_0},
 	{.name = "max_area", .kind = NUMBER_FROM_0},
 	{.name = "keep_area", .kind = NUMBER_FROM_0},
-	{.name = "min_gap", .kind = NUMBER_FROM_0, .state = UNBUILT},
+	{.name = "min_gap", .kind = NUMBER_FROM_0},
 	{.name = "alignment", .kind = NUMBER_FROM_0},
 	{.name = "barriers", .kind = LINES},
 	{.name = "barrier_width", .kind = NUMBER_FROM_0},
@@ -279,6 +279,7 @@ apply_options(const option_values *options, ty_parameters *p)
 	p->alignment = number_or(options, OPTION_ALIGNMENT, 0);
 	p->min_side = number_or(options, OPTION_MIN_SIDE, 0);
 	p->max_area = number_or(options, OPTION_MAX_AREA, TY_DEFAULT_MAX_AREA_SIDES * p->min_side * p->min_side);
+	p->min_gap = number_or(options, OPTION_MIN_GAP, 0);
 	p->barrier_width = number_or(options, OPTION_BARRIER_WIDTH, 0);
 	p->barriers = options->barriers;
 	p->keep_area = number_or(options, OPTION_KEEP_AREA, 0);
@@ -370,7 +371,7 @@ ty_same_parameters(const ty_parameters *a, const ty_parameters *b)
 		   a->min_distance == b->min_distance && a->count == b->count && a->law == b->law &&
 		   a->count_rule == b->count_rule && a->area_statistic == b->area_statistic && a->shape == b->shape &&
 		   a->min_area == b->min_area && a->alignment == b->alignment && a->min_side == b->min_side &&
-		   a->max_area == b->max_area && a->keep_area == b->keep_area && a->barrier_width == b->barrier_width &&
+		   a->max_area == b->max_area && a->keep_area == b->keep_area && a->min_gap == b->min_gap && a->barrier_width == b->barrier_width &&
 		   a->barriers.low == b->barriers.low && a->barriers.high == b->barriers.high;
 }
 

@@ -19,7 +19,7 @@ sum_areas(const ty_building *buildings, const uint32_t *members, size_t n, ty_ar
 }
 
 double
-ty_group_importance(const group *g, uint32_t building)
+ty_group_importance(const ty_group *g, uint32_t building)
 {
 	double importance = g->importance == NULL ? 1 : g->importance[building];
 
@@ -27,7 +27,7 @@ ty_group_importance(const group *g, uint32_t building)
 }
 
 static double
-weighted_mean_area(const group *g, const uint32_t *members, size_t n)
+weighted_mean_area(const ty_group *g, const uint32_t *members, size_t n)
 {
 	__int128 sum = 0;
 	int64_t weights = 0;
@@ -55,7 +55,7 @@ area_of_bits(uint64_t bits)
 }
 
 static ty_status
-median_area(const ty_environment *env, const group *g, const uint32_t *members, size_t n, double *median)
+median_area(const ty_environment *env, const ty_group *g, const uint32_t *members, size_t n, double *median)
 {
 	ty_status status;
 
@@ -69,7 +69,7 @@ median_area(const ty_environment *env, const group *g, const uint32_t *members, 
 
 /* the statistic of the members' areas, unscaled (spec 3.2) */
 static ty_status
-area_statistic(const ty_environment *env, const group *g, const uint32_t *members, size_t n, double *area)
+area_statistic(const ty_environment *env, const ty_group *g, const uint32_t *members, size_t n, double *area)
 {
 	ty_area_statistic statistic = g->parameters->area_statistic;
 
@@ -101,13 +101,13 @@ fit_outline(const ty_outline *outline, ty_size size, ty_placeholder *p)
  * alone.
  */
 static void
-set_size(const group *g, double statistic, ty_placeholder *p)
+set_size(const ty_group *g, ty_placeholder *p)
 {
 	const ty_building *b = &g->buildings[p->representative];
 	const ty_outline *outline = g->outlines == NULL ? NULL : g->outlines[p->representative];
 	double ratio = g->parameters->shape == TY_SQUARE ? 1 : b->ratio;
-	double own = p->kept ? b->area : statistic;
-	double area = p->kept ? b->area : ty_scaled_area(g->parameters, g->area_factor, statistic);
+	double own = p->kept ? b->area : p->statistic;
+	double area = p->kept ? b->area : ty_scaled_area(g->parameters, g->area_factor, p->statistic);
 	ty_size size = outline != NULL && area > 0 ? ty_outline_drawn_size(g->parameters, outline, own, area)
 											   : ty_drawn_size(g->parameters, own, area, ratio, p->kept ? 1 : p->count);
 
@@ -122,7 +122,7 @@ set_size(const group *g, double statistic, ty_placeholder *p)
 
 /* whether a stands for the two of them: the higher importance, then the larger area */
 static bool
-represents(const group *g, uint32_t a, uint32_t b)
+represents(const ty_group *g, uint32_t a, uint32_t b)
 {
 	if (g->weight != NULL)
 	{
@@ -136,7 +136,7 @@ represents(const group *g, uint32_t a, uint32_t b)
 
 /* of equal ones that with the smallest rank; members ascend by rank */
 static uint32_t
-representative(const group *g, const uint32_t *members, size_t n)
+representative(const ty_group *g, const uint32_t *members, size_t n)
 {
 	uint32_t best = members[0];
 
@@ -150,7 +150,7 @@ representative(const group *g, const uint32_t *members, size_t n)
 
 /* Fetches the buildings of as many members as the placeholder has, AHEAD of its own. */
 static inline __attribute__((always_inline)) void
-fetch_ahead(const group *g, const ty_result *result, const ty_placeholder *p, size_t n)
+fetch_ahead(const ty_group *g, const ty_result *result, const ty_placeholder *p, size_t n)
 {
 	for (size_t i = p->first + AHEAD; i < (size_t) p->first + p->count + AHEAD && i < n; i++)
 	{
@@ -159,13 +159,11 @@ fetch_ahead(const group *g, const ty_result *result, const ty_placeholder *p, si
 	}
 }
 
-/* Fills in a placeholder whose members are known. rank: the smallest of them, where the vertex is kept. */
-static ty_status
-describe(const ty_environment *env, const group *g, const uint32_t *members, uint32_t rank, ty_placeholder *p)
+ty_status
+ty_describe(const ty_environment *env, const ty_group *g, const uint32_t *members, uint32_t rank, ty_placeholder *p)
 {
 	const ty_building *b;
-	double statistic = 0;
-	ty_status status = area_statistic(env, g, members + p->first, p->count, &statistic);
+	ty_status status = area_statistic(env, g, members + p->first, p->count, &p->statistic);
 
 	p->representative = representative(g, members + p->first, p->count);
 	p->kept = g->weight != NULL && ty_group_importance(g, p->representative) == INFINITY;
@@ -175,7 +173,7 @@ describe(const ty_environment *env, const group *g, const uint32_t *members, uin
 	p->y = p->count == 1 || p->kept ? b->y : ty_grid_y(&g->grid, g->position[rank].y);
 	p->ux = b->ux;
 	p->uy = b->uy;
-	set_size(g, statistic, p);
+	set_size(g, p);
 	if (status == TY_OK && (!isfinite(p->area) || !isfinite(p->length)))
 		status = TY_NOT_FINITE;
 	return status;
@@ -183,9 +181,8 @@ describe(const ty_environment *env, const group *g, const uint32_t *members, uin
 
 /* ---- the whole group ---- */
 
-/* Sorts the ranks by label, stably; first[] and count[] of the placeholders, and members as buildings. */
-static void
-list_members(const uint32_t *label, const uint32_t *order, size_t n, ty_result *result)
+void
+ty_list_members(const uint32_t *label, const uint32_t *order, size_t n, ty_result *result)
 {
 	uint32_t first = 0;
 
@@ -218,7 +215,7 @@ most_members(const ty_result *result)
 }
 
 static ty_status
-describe_all(const ty_environment *env, const group *g, const uint32_t *label, size_t n, ty_result *result)
+describe_all(const ty_environment *env, const ty_group *g, const uint32_t *label, size_t n, ty_result *result)
 {
 	ty_status status = TY_OK;
 	size_t next = 0;
@@ -231,7 +228,7 @@ describe_all(const ty_environment *env, const group *g, const uint32_t *label, s
 		if (label[rank] != next)
 			continue;
 		fetch_ahead(g, result, p, n);
-		status = describe(env, g, result->members, (uint32_t) rank, p);
+		status = ty_describe(env, g, result->members, (uint32_t) rank, p);
 		result->undrawn += !(p->area > 0);
 		next++;
 		if (ty_interrupted_at(env, next))
@@ -242,11 +239,11 @@ describe_all(const ty_environment *env, const group *g, const uint32_t *label, s
 	return status;
 }
 
-/* room for the median of the placeholder with most members */
+/* room for the median of the placeholder with most members, which may be all where some are joined */
 static ty_status
-prepare_median(const ty_environment *env, group *g, const ty_result *result)
+prepare_median(const ty_environment *env, ty_group *g, size_t n, const ty_result *result)
 {
-	uint32_t most = most_members(result);
+	size_t most = g->parameters->min_gap > 0 ? n : most_members(result);
 
 	if (g->parameters->area_statistic != TY_MEDIAN)
 		return TY_OK;
@@ -260,7 +257,7 @@ prepare_median(const ty_environment *env, group *g, const ty_result *result)
 
 /* Lays out what is left of rows. */
 static ty_status
-lay_out_rows(const ty_environment *env, const group *g, const uint32_t *label, size_t n, ty_result *result)
+lay_out_rows(const ty_environment *env, const ty_group *g, const uint32_t *label, size_t n, ty_result *result)
 {
 	uint32_t *keeper = ty_allocate_array(env, result->count, sizeof *keeper);
 	ty_drawn_rows drawn = {&g->rows, g->buildings, g->order, label, keeper, g->barriers};
@@ -278,7 +275,7 @@ lay_out_rows(const ty_environment *env, const group *g, const uint32_t *label, s
 }
 
 static ty_status
-cut_and_describe(const ty_environment *env, group *g, const ty_sequence *sequence, size_t n, ty_result *result)
+cut_and_describe(const ty_environment *env, ty_group *g, const ty_sequence *sequence, size_t n, ty_result *result)
 {
 	uint32_t *label = ty_allocate_array(env, n, sizeof *label);
 	ty_status status = TY_NO_MEMORY;
@@ -288,12 +285,14 @@ cut_and_describe(const ty_environment *env, group *g, const ty_sequence *sequenc
 	if (label != NULL && result->members != NULL && result->placeholders != NULL)
 	{
 		result->count = ty_sequence_cut(sequence, sequence->count, n, label);
-		list_members(label, g->order, n, result);
-		status = prepare_median(env, g, result);
+		ty_list_members(label, g->order, n, result);
+		status = prepare_median(env, g, n, result);
 		if (status == TY_OK)
 			status = describe_all(env, g, label, n, result);
 		if (status == TY_OK && g->rows.count > 0)
 			status = lay_out_rows(env, g, label, n, result);
+		if (status == TY_OK && g->parameters->min_gap > 0)
+			status = ty_make_group_legible(env, g, label, n, result);
 	}
 	ty_release(env, label);
 	return status;
@@ -302,7 +301,7 @@ cut_and_describe(const ty_environment *env, group *g, const ty_sequence *sequenc
 /* what the rows of a group are found with */
 typedef struct row_search
 {
-	const group *group;
+	const ty_group *group;
 	const ty_barriers *barriers;
 } row_search;
 
@@ -317,7 +316,7 @@ static ty_status
 find_rows(const void *context, const ty_mesh *mesh, ty_rows *rows)
 {
 	const row_search *search = context;
-	const group *g = search->group;
+	const ty_group *g = search->group;
 	ty_parting parting = {search->barriers->count > 0 ? barrier_parts : NULL, search->barriers};
 	ty_trait *trait = ty_allocate_array(mesh->env, mesh->vertices, sizeof *trait);
 	ty_status status;
@@ -332,7 +331,7 @@ find_rows(const void *context, const ty_mesh *mesh, ty_rows *rows)
 
 /* when to stop, in the core's terms */
 static ty_stop
-find_stop(const group *g, size_t n)
+find_stop(const ty_group *g, size_t n)
 {
 	const ty_parameters *p = g->parameters;
 	ty_stop stop = {n, p->min_distance / g->grid.cell};
@@ -346,7 +345,7 @@ find_stop(const group *g, size_t n)
 }
 
 static ty_status
-order_group(const ty_environment *env, group *g, size_t n)
+order_group(const ty_environment *env, ty_group *g, size_t n)
 {
 	ty_status status = TY_NO_MEMORY;
 
@@ -359,7 +358,7 @@ order_group(const ty_environment *env, group *g, size_t n)
 }
 
 static uint64_t *
-take_keys(group *g)
+take_keys(ty_group *g)
 {
 	uint64_t *keys = g->keys;
 
@@ -369,7 +368,7 @@ take_keys(group *g)
 
 /* whether a building is to be kept for its size */
 static bool
-some_are_large(const group *g, size_t n)
+some_are_large(const ty_group *g, size_t n)
 {
 	for (size_t i = 0; g->parameters->keep_area > 0 && i < n; i++)
 		if (ty_is_kept(g->parameters, g->buildings[i].area, 1))
@@ -379,7 +378,7 @@ some_are_large(const group *g, size_t n)
 
 /* Importances by rank, where there is one other than 1. */
 static ty_status
-weigh_group(const ty_environment *env, group *g, size_t n)
+weigh_group(const ty_environment *env, ty_group *g, size_t n)
 {
 	if (g->importance == NULL && !some_are_large(g, n))
 		return TY_OK;
@@ -400,16 +399,16 @@ weighs(const ty_influence *influence)
 }
 
 ty_status
-ty_group_begin(const ty_environment *env, const ty_input *input, const ty_parameters *p, group *g)
+ty_group_begin(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_group *g)
 {
 	ty_status status;
 
-	*g = (group){.buildings = input->buildings,
-				 .outlines = input->outlines,
-				 .importance = input->importance,
-				 .barriers = input->barriers,
-				 .parameters = p,
-				 .area_factor = ty_area_factor(p)};
+	*g = (ty_group){.buildings = input->buildings,
+					.outlines = input->outlines,
+					.importance = input->importance,
+					.barriers = input->barriers,
+					.parameters = p,
+					.area_factor = ty_area_factor(p)};
 	status = ty_grid_fit(g->buildings, input->n, &g->grid);
 	if (status != TY_OK)
 		return status;
@@ -419,7 +418,7 @@ ty_group_begin(const ty_environment *env, const ty_input *input, const ty_parame
 }
 
 ty_status
-ty_group_collapse(const ty_environment *env, group *g, const ty_input *input, ty_stop stop, bool with_cost,
+ty_group_collapse(const ty_environment *env, ty_group *g, const ty_input *input, ty_stop stop, bool with_cost,
 				  ty_sequence *sequence)
 {
 	ty_barriers barriers = {.env = env};
@@ -450,7 +449,7 @@ ty_group_collapse(const ty_environment *env, group *g, const ty_input *input, ty
 }
 
 void
-ty_group_free(const ty_environment *env, group *g)
+ty_group_free(const ty_environment *env, ty_group *g)
 {
 	ty_release(env, g->order);
 	ty_release(env, g->position);
@@ -459,14 +458,14 @@ ty_group_free(const ty_environment *env, group *g)
 	ty_release(env, g->area_bits);
 	ty_release(env, g->sorted);
 	ty_rows_free(env, &g->rows);
-	*g = (group){0};
+	*g = (ty_group){0};
 }
 
 /* Typifies buildings that all count. */
 static ty_status
 typify_houses(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result)
 {
-	group g;
+	ty_group g;
 	ty_sequence sequence = {0};
 	ty_status status = ty_group_begin(env, input, p, &g);
 
@@ -513,5 +512,6 @@ ty_result_free(const ty_environment *env, ty_result *result)
 {
 	ty_release(env, result->placeholders);
 	ty_release(env, result->members);
+	ty_release(env, result->sites);
 	*result = (ty_result){0};
 }

@@ -6,6 +6,7 @@
 
 #include "barrier.h"
 #include "environment.h"
+#include "legibility.h"
 #include "measure.h"
 #include "outline.h"
 #include "placeholder.h"
@@ -27,11 +28,15 @@ typedef struct ty_input
 
 typedef struct ty_placeholder
 {
-	/* centre of the rectangle, ground units: the vertex; of a single or kept building its very centroid, off the grid */
+	/*
+	 * centre of the rectangle, ground units: the vertex; of a single or kept building its very centroid, off the grid;
+	 * min_gap may have moved it
+	 */
 	double x, y;
 	double area; /* what is drawn, ground units; 0: no size, not drawn */
 	/* of the rectangle; where the representative has an outline, of the one around it, whose centre is not the vertex */
 	double width, length;
+	double statistic;		 /* of the members' areas, unscaled */
 	double ratio;			 /* width / length; of the representative unless min_side changed it, 1 for squares */
 	double ux, uy;			 /* of the representative */
 	uint32_t representative; /* index into the caller's buildings */
@@ -45,7 +50,11 @@ typedef struct ty_result
 	size_t count;
 	ty_placeholder *placeholders; /* [count] in canonical order: by smallest rank of the members */
 	uint32_t *members; /* [n] indices into the caller's buildings, by placeholder, then by rank, sheds last */
-	size_t undrawn;	   /* placeholders without size; one of sheds alone has none and does not count */
+	ty_site *sites; /* [count] with min_gap: the placeholders as sites (legibility.h), as they are drawn; else NULL */
+	size_t undrawn; /* placeholders without size; one of sheds alone has none and does not count */
+	size_t hidden;	/* for which there was no room */
+	size_t collisions;	   /* of two kept buildings that are nearer to each other than min_gap ... */
+	uint32_t colliding[2]; /* ... the first two of them: indices into the caller's buildings */
 } ty_result;
 
 /*
@@ -54,6 +63,13 @@ typedef struct ty_result
  * The result's arrays come from env; ty_result_free gives them back. TY_NOT_FINITE when a sum of areas overflows.
  */
 ty_status ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result);
+/*
+ * The placeholder as a site (legibility.h) to which nothing has been done. p, input: as its group was typified with; the
+ * site's group is 0.
+ */
+void ty_placeholder_site(const ty_parameters *p, const ty_input *input, const ty_placeholder *placeholder,
+						 ty_site *site);
+
 void ty_result_free(const ty_environment *env, ty_result *result);
 
 #endif

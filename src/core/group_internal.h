@@ -1,5 +1,5 @@
 /*
- * group_internal.h - a group on its way, as group.c and hierarchy.c go it.
+ * group_internal.h - a group on its way, as group.c, group_legible.c and hierarchy.c go it.
  */
 #ifndef TY_GROUP_INTERNAL_H
 #define TY_GROUP_INTERNAL_H
@@ -41,5 +41,21 @@ void ty_group_free(const ty_environment *env, ty_group *g);
 
 /* of a building, by its index; INFINITY: kept, for itself or for its size */
 double ty_group_importance(const ty_group *g, uint32_t building);
+
+/*
+ * Fills in a placeholder whose members are known, ascending by rank. rank: the smallest of them, where the vertex
+ * is kept.
+ */
+ty_status ty_describe(const ty_environment *env, const ty_group *g, const uint32_t *members, uint32_t rank,
+					  ty_placeholder *p);
+
+/* Sorts the ranks by label, stably; first and count of the placeholders, and members as buildings. */
+void ty_list_members(const uint32_t *label, const uint32_t *order, size_t n, ty_result *result);
+
+/*
+ * Keeps the placeholders apart by min_gap (group_legible.c): some come to lie elsewhere, or smaller, and some are
+ * joined; label[rank] as ty_sequence_cut gives it, and then anew.
+ */
+ty_status ty_make_group_legible(const ty_environment *env, ty_group *g, uint32_t *label, size_t n, ty_result *result);
 
 #endif

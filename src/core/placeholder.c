@@ -218,6 +218,7 @@ ty_bring_to_ground(ty_parameters *p, double metres_per_unit)
 
 	p->min_side *= length;
 	p->max_area *= length * length;
+	p->min_gap *= length;
 	p->barrier_width *= length;
 	p->keep_area *= length * length;
 }
@@ -244,19 +245,33 @@ enlarge(ty_size *size, double min_side, double limit)
 	size->ratio = size->width / size->length;
 }
 
+static double
+drawn_ratio(const ty_parameters *p, double ratio, size_t members)
+{
+	return p->min_side > 0 && members > 1 ? fmax(ratio, LEAST_RATIO_OF_SEVERAL) : ratio;
+}
+
+ty_size
+ty_least_size(const ty_parameters *p, double ratio, size_t members)
+{
+	ty_size size = {.ratio = drawn_ratio(p, ratio, members)};
+
+	if (p->min_side > 0)
+		enlarge(&size, p->min_side, 0);
+	return size;
+}
+
 ty_size
 ty_drawn_size(const ty_parameters *p, double statistic, double area, double ratio, size_t members)
 {
 	double limit = INFINITY;
-	ty_size size = {.area = area, .ratio = ratio};
+	ty_size size = {.area = area, .ratio = drawn_ratio(p, ratio, members)};
 
 	if (p->max_area > 0)
 	{
 		limit = fmax(statistic, p->max_area);
 		size.area = fmax(statistic, fmin(area, p->max_area));
 	}
-	if (p->min_side > 0 && members > 1)
-		size.ratio = fmax(size.ratio, LEAST_RATIO_OF_SEVERAL);
 	ty_rectangle_sides(size.area, size.ratio, &size.width, &size.length);
 	if (size.width < p->min_side)
 		enlarge(&size, p->min_side, limit);

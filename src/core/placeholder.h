@@ -56,6 +56,7 @@ typedef struct ty_parameters
 	/* legibility, 0: off. Millimetres on the map as options say them, ground units after ty_bring_to_ground. */
 	double min_side;	  /* shortest side that is drawn */
 	double max_area;	  /* nothing is enlarged beyond it */
+	double min_gap;		  /* between placeholders */
 	double keep_area;	  /* buildings of this true area are kept */
 	double barrier_width; /* of the symbol of the barriers */
 	ty_barrier_hash barriers;
@@ -99,6 +100,8 @@ double ty_scaled_area(const ty_parameters *p, double area_factor, double statist
  * a rectangle of that area and ratio.
  */
 ty_size ty_drawn_size(const ty_parameters *p, double statistic, double area, double ratio, size_t members);
+/* The smallest that is still legible: no side shorter than min_side. All 0 without min_side. */
+ty_size ty_least_size(const ty_parameters *p, double ratio, size_t members);
 
 /* f_area (paper, section on size): ground units; 1 at the source scale */
 double ty_area_factor(const ty_parameters *p);

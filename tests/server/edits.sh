@@ -1,7 +1,7 @@
 #!/bin/bash
 # edits.sh - the fear: after edits, refreshing the groups that changed leaves a layer that is not what deriving anew
 # gives: rows too many, too few, stale, or calibrated to what was. 1 000 random edits of the settlement, ten at a time,
-# with LOD200 by nearest building, and with fixed options. Uses the server of the PG* variables.
+# with LOD200 by nearest building and groups kept apart, and with fixed options and no gap. Uses the server of the PG* variables.
 . "$(dirname "$0")/common.sh"
 
 fresh_database typify_edits tests/data/settlement.sql
@@ -12,11 +12,14 @@ sql -o /dev/null \
 	-c 'CREATE INDEX ON lod25 USING gist (geom)' -c 'CREATE INDEX ON lod25 (block)' -c 'ANALYZE'
 summary=$(sql -At -f tests/data/edits.sql -f - <<'SQL' | tail -1
 CREATE FUNCTION pg_temp.edits(OUT edits integer, OUT stale integer, OUT differing bigint, OUT fixed_differing bigint,
-	OUT refreshed bigint, OUT rows bigint, OUT seconds_groups numeric, OUT seconds_anew numeric) LANGUAGE plpgsql AS
+	OUT refreshed bigint, OUT rows bigint, OUT seconds_groups numeric, OUT seconds_anew numeric) LANGUAGE plpgsql
+SET client_min_messages = error AS
 $$
 DECLARE
-	anew CONSTANT text := 'SELECT * FROM typify_derive(''lod25'', ''coarse'', 75000, 0.5, ''block'')';
-	options CONSTANT typify_options := (c).options FROM typify_calibrate('lod25', 'coarse', 0.5) AS c;
+	anew CONSTANT text := 'SELECT * FROM typify_derive(''lod25'', ''coarse'', 75000, 0.5, ''block'', '
+		'options => typify_options(min_side => 0.35, min_gap => 0.2))';
+	options CONSTANT typify_options := jsonb_populate_record((c).options, '{"min_side": 0, "min_gap": 0}')
+		FROM typify_calibrate('lod25', 'coarse', 0.5) AS c;
 	fixed CONSTANT text := format(
 		'SELECT * FROM typify_derive(''lod25'', ''coarse'', 100000, 0.5, ''block'', options => %L)', options);
 	touched text[];

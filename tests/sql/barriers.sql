@@ -148,23 +148,23 @@ FROM typify_test_result AS r, unnest(members) AS member JOIN typify_test_town AS
 -- tables and layers: barriers are a table of their own
 CREATE TABLE typify_test_road (name text, geom geometry(LineString, 2056));
 INSERT INTO typify_test_road VALUES ('river', 'SRID=2056;LINESTRING(-10 9,60 9)'), ('empty', 'SRID=2056;LINESTRING EMPTY'), ('none', NULL);
-SELECT members FROM typify_derive('typify_test_house', NULL, 200000, barriers => 'typify_test_road') ORDER BY members;
+SELECT members FROM typify_derive('typify_test_house', NULL, 200000, options => typify_options(min_side => 0, min_gap => 0), barriers => 'typify_test_road') ORDER BY members;
 CREATE VIEW typify_test_grouped AS SELECT id, id % 10 / 3 AS part, geom FROM typify_test_house;
-SELECT grp, members FROM typify_derive('typify_test_grouped', NULL, 200000, group_by => 'part', barriers => 'typify_test_road') ORDER BY grp, members;
+SELECT grp, members FROM typify_derive('typify_test_grouped', NULL, 200000, group_by => 'part', options => typify_options(min_side => 0, min_gap => 0), barriers => 'typify_test_road') ORDER BY grp, members;
 SELECT grp, members FROM typify_derive('typify_test_grouped', NULL, 200000, group_by => 'part', options => typify_options(barriers => 'SRID=2056;LINESTRING(-10 9,60 9)')) ORDER BY grp, members;
 SELECT grp, members FROM typify_derive('typify_test_grouped', NULL, 200000, group_by => 'part', groups => '{1}', barriers => 'typify_test_road') ORDER BY grp, members;
 SELECT count(*) AS calibrated_rows, count((options).barriers) AS with_barriers FROM typify_calibrate('typify_test_grouped', 'typify_test_house', 0, 'part', typify_options(barriers => 'SRID=2056;LINESTRING(-10 9,60 9)'));
 SELECT count(*) AS links FROM typify_match('typify_test_house', 'typify_test_house', options => typify_options(barriers => 'SRID=2056;LINESTRING(-10 9,60 9)'));
-SELECT typify_create_scale('typify_test_layer', 'typify_test_house', NULL, 200000, kind => 'table', barriers => 'typify_test_road') AS layer;
+SELECT typify_create_scale('typify_test_layer', 'typify_test_house', NULL, 200000, kind => 'table', options => typify_options(min_side => 0, min_gap => 0), barriers => 'typify_test_road') AS layer;
 SELECT members FROM typify_test_layer ORDER BY members;
 UPDATE typify_test_road SET geom = 'SRID=2056;LINESTRING(28 -10,28 30)' WHERE name = 'river';
 SELECT typify_refresh_scale('typify_test_layer');
 SELECT members FROM typify_test_layer ORDER BY members;
-SELECT typify_create_scale('typify_test_view', 'typify_test_house', NULL, 200000, barriers => 'typify_test_road') AS layer;
+SELECT typify_create_scale('typify_test_view', 'typify_test_house', NULL, 200000, options => typify_options(min_side => 0, min_gap => 0), barriers => 'typify_test_road') AS layer;
 SELECT members FROM typify_test_view ORDER BY members;
 SELECT pg_temp.error_of('DROP TABLE typify_test_road');
 SET client_min_messages = warning;
-CALL typify_build_scale('typify_test_built', 'typify_test_grouped', NULL, 200000, group_by => 'part', barriers => 'typify_test_road');
+CALL typify_build_scale('typify_test_built', 'typify_test_grouped', NULL, 200000, group_by => 'part', options => typify_options(min_side => 0, min_gap => 0), barriers => 'typify_test_road');
 RESET client_min_messages;
 SELECT grp, members FROM typify_test_built ORDER BY grp, members;
 SELECT obj_description('typify_test_built'::regclass)::jsonb->>'barriers' AS kept;

@@ -143,6 +143,6 @@ SELECT a AS arguments, regexp_replace(pg_temp.error_of(format('SELECT * FROM typ
 	'''lod25'', NULL, 75000, box => ST_MakeEnvelope(0, 0, 1, 1)', '''lod25'', NULL, 75000, box => ST_MakeEnvelope(0, 0, 1, 1, 25833)',
 	'''wrong'', NULL, 75000, id_column => ''word''', '''wrong'', NULL, 75000, id_column => ''twice''', '''wrong'', NULL, 75000, 0, ''block'', id_column => ''twice''', '''wrong'', NULL, 75000, geom_column => ''degrees''',
 	'''lod25'', NULL, 75000, 0, ''block'', links => ''link''', '''lod25'', NULL, 75000, links => ''word_link''', '''lod25'', NULL, 75000, links => ''absent''',
-	'''lod25'', ''lod200'', 75000, 0, ''block'', allocation => ''total'', options => typify_options(min_distance => 10)', '''lod25'', NULL, 75000, options => typify_options(min_gap => 0.2)',
+	'''lod25'', ''lod200'', 75000, 0, ''block'', allocation => ''total'', options => typify_options(min_distance => 10)', '''lod25'', NULL, 75000, options => typify_options(min_gap => -1)',
 	'''lod200'', ''lod25'', 75000', '''lod25'', ''nobody'', 75000', '''nobody'', NULL, 20000', '''nobody'', NULL, 75000, 2'
 ]) WITH ORDINALITY AS a (a, number) ORDER BY number;

@@ -51,7 +51,7 @@ FROM unnest(ARRAY['NULL', '1', '1 + 0 * id', '0.9', '-1', '''NaN''', '2', '''Inf
 SELECT q, pg_temp.error_of('SELECT ' || q)
 FROM unnest(ARRAY[
 	'typify_count(-1, 50000)', 'typify_count(1, 24999)', 'typify_count(1, ''NaN'')', 'typify_count(1, ''Infinity'')',
-	'typify_count(1, 50000, typify_options(min_distance => 10))', 'typify_count(1, 50000, typify_options(min_gap => 0.2))',
+	'typify_count(1, 50000, typify_options(min_distance => 10))', 'typify_count(1, 50000, typify_options(min_gap => -1))',
 	'typify_area_factor(24999)', 'typify_area_factor(50000, typify_options(shape => ''footprint''))',
 	'typify_psi(0, 1)', 'typify_psi(-1, 1)', 'typify_psi(1, -1)', 'typify_psi(''NaN'', 1)', 'typify_psi(1, ''Infinity'')',
 	'typify_psi(1, 1, 0, 1)', 'typify_psi(1, 1, 25000, 25000)', 'typify_psi(1, 1, 25000, ''Infinity'')',

@@ -47,9 +47,9 @@ FROM typify_derive('typify_test_lod25', NULL, 100000, 0, 'block', options => typ
 
 -- layers know the column
 CREATE TEMP TABLE expected AS SELECT * FROM typify_derive('typify_test_lod25', 'typify_test_lod200', 100000, 0, 'block', importance_column => 'worth');
-SELECT typify_create_scale('typify_test_view', 'typify_test_lod25', 'typify_test_lod200', 100000, 0, 'block', importance_column => 'worth') AS layer;
-SELECT typify_create_scale('typify_test_table', 'typify_test_lod25', 'typify_test_lod200', 100000, 0, 'block', 'table', importance_column => 'worth') AS layer;
-CALL typify_build_scale('typify_test_built', 'typify_test_lod25', 'typify_test_lod200', 100000, 0, 'block', importance_column => 'worth', batch => 4);
+SELECT typify_create_scale('typify_test_view', 'typify_test_lod25', 'typify_test_lod200', 100000, 0, 'block', options => typify_options(min_side => 0, min_gap => 0), importance_column => 'worth') AS layer;
+SELECT typify_create_scale('typify_test_table', 'typify_test_lod25', 'typify_test_lod200', 100000, 0, 'block', 'table', options => typify_options(min_side => 0, min_gap => 0), importance_column => 'worth') AS layer;
+CALL typify_build_scale('typify_test_built', 'typify_test_lod25', 'typify_test_lod200', 100000, 0, 'block', options => typify_options(min_side => 0, min_gap => 0), importance_column => 'worth', batch => 4);
 SELECT obj_description('typify_test_built'::regclass)::json->>'importance_column' AS column;
 CREATE FUNCTION pg_temp.differ(layer regclass) RETURNS bigint LANGUAGE plpgsql AS
 $$

@@ -34,19 +34,11 @@ FROM (SELECT pg_temp.error_of(format('SELECT typify_options(%I => %s)', field, v
 			 pg_temp.error_of(format('SELECT typify_count(10, 250000, %s)', pg_temp.row_with(field, value))) AS from_count
 	  FROM wrong) AS w;
 
--- options that are not built yet can be made and stored, and are refused where they are used
-SELECT o AS option, pg_temp.error_of('SELECT typify_options(' || o || ')') AS made,
-	   pg_temp.error_of('SELECT typify(geom, 50000, 0, typify_options(' || o || ')) FROM typify_test_building') AS used
-FROM unnest(ARRAY['min_gap => 0.2']) WITH ORDINALITY AS o (o, number)
-ORDER BY number;
-SELECT pg_temp.error_of('SELECT typify_placeholders(geom, id, 50000, 0, typify_options(min_gap => 0.2)) FROM typify_test_building');
-SELECT pg_temp.error_of('SELECT typify_cluster(geom, 50000, 0, typify_options(min_gap => 0.2)) OVER () FROM typify_test_building');
-
 -- values that mean off are today's behaviour
 SELECT o AS option, typify(geom, 50000, 0, o)::bytea = typify(geom, 50000)::bytea AS same
 FROM typify_test_building, (VALUES (1, typify_options()), (2, typify_options(min_area => 0, keep_area => 0)), (3, typify_options(alignment => 0)),
 	(4, typify_options(barrier_width => 0)), (5, typify_options(barriers => 'LINESTRING EMPTY')),
-	(6, typify_options(min_distance => 0)), (7, typify_options(25000, 200000, 2, 0.75, NULL, NULL, 'radical', 'mean', 'rectangle'))) AS v (number, o)
+	(6, typify_options(min_distance => 0)), (8, typify_options(min_side => 0, max_area => 0, min_gap => 0)), (7, typify_options(25000, 200000, 2, 0.75, NULL, NULL, 'radical', 'mean', 'rectangle'))) AS v (number, o)
 GROUP BY number, o ORDER BY number;
 
 -- every way a composite can come: literal, function, row, domain, table, sub-select, prepared parameter, variable

@@ -41,9 +41,10 @@ SELECT "Typify, 1".typify_refresh_scale('"My Maps"."Layer 75"', true);
 SELECT "Typify, 1".typify_refresh_groups('"My Maps"."Table 75"', '{block 1}') > 0 AS rows;
 CALL "Typify, 1".typify_build_scale('"My Maps"."Built 75"', '"My Maps"."Houses, 25"', '"My Maps"."Houses ''n'' Blocks"', 75000, 0.5, 'Block "A"', id_column => 'Id', geom_column => 'The Geom', batch => 4,
 	options => "Typify, 1".typify_options(shape => 'square'));
-CREATE VIEW "My Maps".derived AS SELECT * FROM "Typify, 1".typify_derive('"My Maps"."Houses, 25"', '"My Maps"."Houses ''n'' Blocks"', 75000, 0.5, 'Block "A"', id_column => 'Id', geom_column => 'The Geom');
+CREATE VIEW "My Maps".derived AS SELECT * FROM "Typify, 1".typify_derive('"My Maps"."Houses, 25"', '"My Maps"."Houses ''n'' Blocks"', 75000, 0.5, 'Block "A"', id_column => 'Id', geom_column => 'The Geom',
+	options => "Typify, 1".typify_legible_options(NULL));
 CREATE VIEW "My Maps".squares AS SELECT * FROM "Typify, 1".typify_derive('"My Maps"."Houses, 25"', '"My Maps"."Houses ''n'' Blocks"', 75000, 0.5, 'Block "A"', id_column => 'Id', geom_column => 'The Geom',
-	options => "Typify, 1".typify_options(shape => 'square'));
+	options => "Typify, 1".typify_legible_options("Typify, 1".typify_options(shape => 'square')));
 CREATE FUNCTION "My Maps".differing(one text, other text) RETURNS bigint LANGUAGE plpgsql AS
 $$
 DECLARE

@@ -159,7 +159,7 @@ defaults(double s_u)
 	return p;
 }
 
-/* with importances, kept buildings and sheds as well; by turns in the tests of allocations */
+/* with importances, kept buildings, sheds and gaps as well; by turns in the tests of allocations */
 static bool weighed;
 static double importance[MOST];
 
@@ -186,6 +186,8 @@ weigh(size_t n, ty_parameters *p)
 		importance[i] = i % 40 == 1 ? INFINITY : 1 + (double) (i % 3);
 	p->min_area = 80;
 	p->keep_area = 395;
+	p->min_side = 40;
+	p->min_gap = 30;
 	p->alignment = 2;
 }
 

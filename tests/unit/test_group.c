@@ -35,7 +35,7 @@ defaults(double scale, double s_u)
 static ty_result
 typify(size_t n, const ty_parameters *p)
 {
-	ty_result result = {0, NULL, NULL, 0};
+	ty_result result = {0};
 	ty_status status = ty_typify(&ty_plain_environment, &(ty_input){.buildings = buildings, .n = n}, p, &result);
 
 	CHECK(status == TY_OK, "n %zu: status %d", n, status);
@@ -384,7 +384,7 @@ static void
 infinite_sums_of_areas_do_not_pass_unseen(void)
 {
 	ty_parameters p = defaults(200000, 0);
-	ty_result result = {0, NULL, NULL, 0};
+	ty_result result = {0};
 
 	p.count = 1;
 	for (size_t i = 0; i < 4; i++)

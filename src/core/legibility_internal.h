@@ -1,0 +1,101 @@
+/* legibility_internal.h - what the files of legibility share. */
+#ifndef TY_LEGIBILITY_INTERNAL_H
+#define TY_LEGIBILITY_INTERNAL_H
+
+#include "legibility.h"
+#include "separation.h"
+#include "vicinity.h"
+
+/* Two sites that are too near to each other. */
+typedef struct ty_conflict
+{
+	uint32_t a, b; /* a < b; or the same: a site that is too near to a line */
+	double lack;
+} ty_conflict;
+
+typedef struct ty_ladder
+{
+	const ty_environment *env;
+	const ty_legibility *rules;
+	ty_site *sites;
+	size_t n;
+	ty_point origin;	/* places are counted from here, for precision */
+	double gap;			/* that must be kept, with room for rounding */
+	double target;		/* that is made, a bit more, so that it is reached in finite time */
+	double line_target; /* the same for lines; 0: there are none */
+	double line_gap;
+	bool *by_line;		/* [n] whether a line is in reach of the site */
+	ty_oblong *box;		/* [n] where each is now ... */
+	double *radius;		/* [n] ... and half its diagonal */
+	ty_point *start;	/* [n] moved, as given */
+	double *start_size; /* [n] */
+	bool *frozen;		/* [n] is back at its start and stays there */
+	ty_vicinity near;	/* homes, with all that can be reached from there */
+	uint32_t *cached;	/* [n] where in pool the list of those near the site stands: how many, then who */
+	uint32_t *pool;		/* [pool_count] */
+	size_t pool_count, pool_capacity;
+	const uint32_t *list; /* [list_count] what ty_find_near found; some may be gone by now */
+	size_t list_count;
+	uint32_t *active; /* [active_count] sites that may be in a conflict: at least one of the two of each */
+	uint32_t *next;	  /* those of the next round */
+	size_t active_count, next_count;
+	bool *listed;			/* [n] stands in next */
+	uint32_t *degree;		/* [n] in how many conflicts it is, while some are being resolved */
+	ty_conflict *conflicts; /* [conflict_count] */
+	size_t conflict_count, conflict_capacity;
+	double lacking; /* in this round, by all conflicts that were met */
+} ty_ladder;
+
+/* Whether the site is drawn. */
+static inline bool
+ty_is_drawn(const ty_ladder *l, uint32_t i)
+{
+	return l->sites[i].state == TY_DRAWN;
+}
+
+/* by how much a and b, two different sites, are nearer than target; 0 between two that both
+ * stay in any case, and where one is gone */
+double ty_sites_lack(const ty_ladder *l, uint32_t a, uint32_t b, ty_point *away);
+/* whether that is a conflict, and not only less than was aimed at */
+static inline bool
+ty_is_conflict(const ty_ladder *l, double lack)
+{
+	return lack > l->target - l->gap;
+}
+
+/* The box of a site anew, from its place and size. */
+void ty_place_box(ty_ladder *l, uint32_t i);
+/* The site enters the vicinity, or leaves it for good. */
+void ty_enter_site(ty_ladder *l, uint32_t i);
+void ty_hide_site(ty_ladder *l, uint32_t i);
+/* Joins two sites; which of the numbers goes on. in_place: as for the rules' join. */
+ty_status ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t in_place, uint32_t *kept);
+/* Whether two sites belong to one group and no line lies between them. */
+bool ty_may_join(const ty_ladder *l, uint32_t a, uint32_t b);
+/*
+ * legibility_line.c: by how much the site is nearer to a line than it should be, along *away; all of it where it lies
+ * across one.
+ */
+double ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away);
+bool ty_is_line_conflict(const ty_ladder *l, double lack);
+/* Whether a line is in reach. */
+bool ty_line_in_reach(const ty_ladder *l, uint32_t i);
+/* Whether the site has come to lie on the other side of a line. */
+bool ty_is_across(const ty_ladder *l, uint32_t i);
+/* The nearest that is drawn: of those that it may be joined to or, if there is none near, of all. */
+ty_status ty_nearest_site(ty_ladder *l, uint32_t i, uint32_t *nearest, bool *across);
+/* Lists in l->list who may touch the site, wherever both may go. */
+ty_status ty_find_near(ty_ladder *l, uint32_t i);
+/* What was listed by ty_activate becomes active. */
+void ty_next_round(ty_ladder *l);
+/* The site is looked at in the next round. */
+void ty_activate(ty_ladder *l, uint32_t i);
+
+/* legibility_thin.c: joins or hides where so many sites crowd that nothing else can help. */
+ty_status ty_thin_out(ty_ladder *l);
+/* legibility_settle.c: rounds of shrinking and displacing; below: also below true size. */
+ty_status ty_settle(ty_ladder *l, int rounds, bool below);
+/* legibility_settle.c: takes back what was not needed. */
+ty_status ty_relent(ty_ladder *l);
+
+#endif

@@ -1,0 +1,290 @@
+/*
+ * legibility_settle.c - rounds of shrinking and displacing, and what is taken back in the end.
+ *
+ * A round is a sweep over the active sites, each of which settles with whoever is too near at that moment; who had to
+ * do something, and whom it was done to, is active in the next one. Crowds so spread until there is room, or until
+ * everybody stands at its bound.
+ */
+#include "legibility_internal.h"
+
+#include <math.h>
+
+/* ---- shrinking ---- */
+
+#define SHRINK_STEPS 12 /* of at most a quarter of the way from full to own, or from own to least */
+#define SHRINK_STEP 0.25
+
+/* how many times larger than at the floor, 1 for own and 0 for least, the site is now */
+static double
+growth(const ty_ladder *l, uint32_t i, double floor_size)
+{
+	const ty_site *s = &l->sites[i];
+	ty_sides now = ty_site_sides(s), least = floor_size >= 1 ? s->own : s->least;
+
+	if (s->fixed || !(s->size > floor_size))
+		return 0;
+	return now.width * now.length / (least.width * least.length);
+}
+
+/* The size below which a site that was moved would stand too far from home for its longer side. */
+static double
+least_size(const ty_ladder *l, const ty_site *s, double floor_size)
+{
+	double moved = sqrt(s->moved.x * s->moved.x + s->moved.y * s->moved.y);
+	ty_sides high = floor_size >= 1 ? s->full : s->own, low = floor_size >= 1 ? s->own : s->least;
+	double span = high.length - low.length;
+
+	if (moved <= l->gap || 0.5 * low.length >= moved)
+		return floor_size;
+	return span > 0 ? floor_size + fmin((2 * moved - low.length) / span, 1) : s->size;
+}
+
+/* Shrinks the site by what is lacking along n, in one step, and not below the floor. Whether it became smaller. */
+static bool
+shrink(ty_ladder *l, uint32_t i, double lack, ty_point n, double floor_size)
+{
+	ty_site *s = &l->sites[i];
+	double size = s->size, least = least_size(l, s, floor_size), span;
+
+	s->size = floor_size;
+	ty_place_box(l, i);
+	span = ty_extent(&l->box[i], n);
+	s->size = floor_size + 1;
+	ty_place_box(l, i);
+	span = ty_extent(&l->box[i], n) - span;
+	s->size = size;
+	if (span > 0 && size > least)
+		s->size = fmax(least, size - fmin(SHRINK_STEP, lack / span));
+	else if (size > least)
+		s->size = fmax(least, size - SHRINK_STEP);
+	ty_place_box(l, i);
+	return s->size < size;
+}
+
+/* Shrinks two sites as far as needed and as the floor allows, the one that has grown more first. What still lacks. */
+static double
+shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, double floor_size)
+{
+	for (int step = 0; step < SHRINK_STEPS && lack > 0; step++)
+	{
+		double growth_a = growth(l, a, floor_size), growth_b = growth(l, b, floor_size);
+		uint32_t first = growth_a >= growth_b ? a : b, second = first == a ? b : a;
+
+		if (growth_a == 0 && growth_b == 0)
+			break;
+		if (!shrink(l, first, lack, *n, floor_size) && !shrink(l, second, lack, *n, floor_size))
+			break;
+		lack = ty_sites_lack(l, a, b, n);
+	}
+	return lack;
+}
+
+/* ---- displacing ---- */
+
+#define STAGNANT 0.97 /* share of what was lacking a round before, above which another round is not worth its time */
+
+/* Moves the site, within its bound. How far it came along n. */
+static double
+displace(ty_ladder *l, uint32_t i, double distance, ty_point n)
+{
+	ty_site *s = &l->sites[i];
+	ty_point to = {s->moved.x + distance * n.x, s->moved.y + distance * n.y}, from = s->moved;
+	double bound = fmax(l->gap, l->box[i].half_length), length = sqrt(to.x * to.x + to.y * to.y);
+
+	if (s->fixed || l->frozen[i])
+		return 0;
+	if (length > bound)
+		to = (ty_point){to.x * (bound / length), to.y * (bound / length)};
+	s->moved = to;
+	ty_place_box(l, i);
+	return (to.x - from.x) * n.x + (to.y - from.y) * n.y;
+}
+
+/* Pushes b away from a along n, and a from b, half and half; what one cannot do the other does. */
+static void
+push_apart(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point n)
+{
+	ty_point back = {-n.x, -n.y};
+
+	lack -= displace(l, a, 0.5 * lack, back);
+	lack -= displace(l, b, lack, n);
+	if (lack > 0)
+		displace(l, a, lack, back);
+}
+
+static void
+settle_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point n, bool below)
+{
+	l->lacking += lack;
+	lack = shrink_pair(l, a, b, lack, &n, 1);
+	if (lack > 0 && below)
+		lack = shrink_pair(l, a, b, lack, &n, 0);
+	if (lack > 0)
+		push_apart(l, a, b, lack, n);
+	ty_activate(l, a);
+	ty_activate(l, b);
+}
+
+/* Takes the site away from a line that it is too near to, and back from the other side of one. */
+static void
+settle_by_line(ty_ladder *l, uint32_t i, bool below)
+{
+	ty_point n;
+	double lack;
+
+	if (!l->by_line[i] || l->frozen[i])
+		return;
+	if (ty_is_across(l, i))
+	{
+		l->sites[i].moved = (ty_point){0, 0};
+		ty_place_box(l, i);
+		ty_activate(l, i);
+	}
+	lack = ty_line_lack(l, i, &n);
+	if (!ty_is_line_conflict(l, lack))
+		return;
+	l->lacking += lack;
+	for (int stage = 1; stage >= (below ? 0 : 1); stage--)
+		for (int step = 0; step < SHRINK_STEPS && lack > 0 && growth(l, i, stage) > 0; step++)
+		{
+			if (!shrink(l, i, lack, n, stage))
+				break;
+			lack = ty_line_lack(l, i, &n);
+		}
+	if (lack > 0)
+		displace(l, i, lack, n);
+	ty_activate(l, i);
+}
+
+static ty_status
+settle_site(ty_ladder *l, uint32_t i, bool below)
+{
+	ty_status status = ty_find_near(l, i);
+
+	settle_by_line(l, i, below);
+	for (size_t m = 0; status == TY_OK && m < l->list_count; m++)
+	{
+		uint32_t j = l->list[m], a = i < j ? i : j, b = i < j ? j : i;
+		ty_point n;
+		double lack = ty_sites_lack(l, a, b, &n);
+
+		if (ty_is_conflict(l, lack))
+			settle_pair(l, a, b, lack, n, below);
+	}
+	return status;
+}
+
+ty_status
+ty_settle(ty_ladder *l, int rounds, bool below)
+{
+	ty_status status = TY_OK;
+	double before = INFINITY;
+
+	for (int round = 0; status == TY_OK && round < rounds && l->active_count > 0; round++)
+	{
+		l->lacking = 0;
+		for (size_t k = 0; status == TY_OK && k < l->active_count; k++)
+		{
+			if (ty_interrupted_at(l->env, k))
+				return TY_INTERRUPTED;
+			if (ty_is_drawn(l, l->active[k]))
+				status = settle_site(l, l->active[k], below);
+		}
+		ty_next_round(l);
+		if (l->lacking > STAGNANT * before)
+			break;
+		before = l->lacking;
+	}
+	return status;
+}
+
+/* ---- taking back ---- */
+
+#define RELENT_PASSES 2 /* one may be in the other's way home */
+#define RELENT_STEPS 4	/* of halving the way */
+
+/* Whether the site, as it is now, is in a conflict with one of those that were found near it. */
+static bool
+has_room(const ty_ladder *l, uint32_t i)
+{
+	ty_point way;
+
+	if (ty_is_line_conflict(l, ty_line_lack(l, i, &way)) || ty_is_across(l, i))
+		return false;
+	for (size_t m = 0; m < l->list_count; m++)
+	{
+		uint32_t j = l->list[m];
+		ty_point n;
+
+		if (ty_is_conflict(l, ty_sites_lack(l, i < j ? i : j, i < j ? j : i, &n)))
+			return false;
+	}
+	return true;
+}
+
+/* The site as it would be elsewhere, or larger. */
+static void
+set_site(ty_ladder *l, uint32_t i, ty_point moved, double size)
+{
+	l->sites[i].moved = moved;
+	l->sites[i].size = size;
+	ty_place_box(l, i);
+}
+
+/* All the way home, or as much of it as there is room for. */
+static void
+go_home(ty_ladder *l, uint32_t i)
+{
+	ty_point moved = l->sites[i].moved;
+	double size = l->sites[i].size, share = 0;
+
+	for (int step = 0; step < RELENT_STEPS; step++)
+	{
+		set_site(l, i, (ty_point){share * moved.x, share * moved.y}, size);
+		if (has_room(l, i))
+			return;
+		share = 0.5 * (share + 1);
+	}
+	set_site(l, i, moved, size);
+}
+
+/* As large as there is room for, up to its true size and then up to its full one. */
+static void
+grow_again(ty_ladder *l, uint32_t i)
+{
+	ty_point moved = l->sites[i].moved;
+	double size = l->sites[i].size, high = 2;
+
+	for (int step = 0; step < RELENT_STEPS; step++)
+	{
+		set_site(l, i, moved, high);
+		if (has_room(l, i))
+			return;
+		high = 0.5 * (size + high);
+	}
+	set_site(l, i, moved, size);
+}
+
+ty_status
+ty_relent(ty_ladder *l)
+{
+	ty_status status = TY_OK;
+
+	for (int pass = 0; pass < RELENT_PASSES; pass++)
+		for (uint32_t i = 0; status == TY_OK && i < l->n; i++)
+		{
+			ty_site *s = &l->sites[i];
+			bool away = s->moved.x != 0 || s->moved.y != 0, small = s->size < 2;
+
+			if (ty_interrupted_at(l->env, i))
+				return TY_INTERRUPTED;
+			if (s->state != TY_DRAWN || s->fixed || !(away || small))
+				continue;
+			status = ty_find_near(l, i);
+			if (status == TY_OK && away)
+				go_home(l, i);
+			if (status == TY_OK && small)
+				grow_again(l, i);
+		}
+	return status;
+}

@@ -1,0 +1,132 @@
+/* separation.c - see separation.h */
+#include "separation.h"
+
+#include <math.h>
+
+/* b as it lies in the frame of a: the centre, and b's own direction as cosine and sine */
+typedef struct relation
+{
+	double along, across;
+	double cosine, sine;
+} relation;
+
+static relation
+relate(const ty_oblong *a, const ty_oblong *b)
+{
+	double dx = b->x - a->x, dy = b->y - a->y;
+
+	return (relation){dx * a->ux + dy * a->uy, dy * a->ux - dx * a->uy, a->ux * b->ux + a->uy * b->uy,
+					  a->ux * b->uy - a->uy * b->ux};
+}
+
+/* the vector (along, across) of the frame of a, in the plane */
+static ty_point
+in_the_plane(const ty_oblong *a, double along, double across)
+{
+	return (ty_point){along * a->ux - across * a->uy, along * a->uy + across * a->ux};
+}
+
+/* Two of the four separating axes: how far b is beyond the sides of a. *away leaves a along the better one. */
+static double
+beyond_sides(const ty_oblong *a, const ty_oblong *b, const relation *r, ty_point *away)
+{
+	double cosine = fabs(r->cosine), sine = fabs(r->sine);
+	double along = fabs(r->along) - (a->half_length + b->half_length * cosine + b->half_width * sine);
+	double across = fabs(r->across) - (a->half_width + b->half_length * sine + b->half_width * cosine);
+
+	if (along > across)
+	{
+		*away = in_the_plane(a, r->along < 0 ? -1 : 1, 0);
+		return along;
+	}
+	*away = in_the_plane(a, 0, r->across < 0 ? -1 : 1);
+	return across;
+}
+
+/* how far x is outside of -half .. half, 0 inside */
+static double
+outside(double x, double half)
+{
+	if (x > half)
+		return x - half;
+	return x < -half ? x + half : 0;
+}
+
+/* The corner of b that is nearest to a, which does not overlap it: squared distance, and the way there from a. */
+static double
+nearest_corner(const ty_oblong *a, const ty_oblong *b, const relation *r, ty_point *way)
+{
+	double least = INFINITY, along = 0, across = 0;
+
+	for (int corner = 0; corner < 4; corner++)
+	{
+		double length = corner & 1 ? b->half_length : -b->half_length;
+		double width = corner & 2 ? b->half_width : -b->half_width;
+		double dx = outside(r->along + length * r->cosine - width * r->sine, a->half_length);
+		double dy = outside(r->across + length * r->sine + width * r->cosine, a->half_width);
+
+		if (dx * dx + dy * dy < least)
+		{
+			least = dx * dx + dy * dy;
+			along = dx;
+			across = dy;
+		}
+	}
+	*way = in_the_plane(a, along, across);
+	return least;
+}
+
+/* Of two that do not overlap, the nearest points are a corner of one and a point of the other. */
+static double
+corner_distance(const ty_oblong *a, const ty_oblong *b, const relation *ab, const relation *ba, ty_point *away)
+{
+	ty_point back;
+	double squared = nearest_corner(a, b, ab, away), other = nearest_corner(b, a, ba, &back);
+	double distance;
+
+	if (other < squared)
+	{
+		squared = other;
+		*away = (ty_point){-back.x, -back.y};
+	}
+	distance = sqrt(squared);
+	if (distance > 0)
+		*away = (ty_point){away->x / distance, away->y / distance};
+	return distance;
+}
+
+double
+ty_lack(const ty_oblong *a, const ty_oblong *b, double gap, ty_point *away)
+{
+	relation ab = relate(a, b), ba;
+	ty_point back, way;
+	double distance = beyond_sides(a, b, &ab, away), other;
+
+	if (distance >= gap)
+		return 0;
+	ba = relate(b, a);
+	other = beyond_sides(b, a, &ba, &back);
+	if (other > distance)
+	{
+		distance = other;
+		*away = (ty_point){-back.x, -back.y};
+	}
+	if (distance > 0 && distance < gap)
+	{
+		double exact = corner_distance(a, b, &ab, &ba, &way);
+
+		if (exact > distance)
+		{
+			distance = exact;
+			*away = way;
+		}
+	}
+	return distance >= gap ? 0 : gap - distance;
+}
+
+double
+ty_extent(const ty_oblong *box, ty_point n)
+{
+	return box->half_length * fabs(n.x * box->ux + n.y * box->uy) +
+		   box->half_width * fabs(n.y * box->ux - n.x * box->uy);
+}

@@ -1,0 +1,547 @@
+/*
+ * test_legibility.c - the fear: two placeholders overlap or come nearer than the gap, somebody is lost, or one is
+ * moved farther or drawn smaller than allowed. Distances are measured anew here, edge by edge.
+ *
+ * The environment variable SETS says how many random groups are made legible.
+ */
+#include "check.h"
+#include "group.h"
+#include "legibility.h"
+#include "random.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define TOLERANCE 1e-6
+#define GROUPS 100000
+#define MOST 40
+
+/* ---- distances, the plain way ---- */
+
+static double
+point_to_segment(ty_point p, ty_point a, ty_point b)
+{
+	double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+	double t = square > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / square : 0;
+
+	t = t < 0 ? 0 : t > 1 ? 1 : t;
+	return hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+}
+
+static double
+side_of(ty_point a, ty_point b, ty_point p)
+{
+	return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+static bool
+edges_cross(ty_point a, ty_point b, ty_point c, ty_point d)
+{
+	return side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0;
+}
+
+static bool
+inside(const ty_point ring[5], ty_point p)
+{
+	for (int i = 0; i < 4; i++)
+		if (side_of(ring[i], ring[i + 1], p) < 0)
+			return false;
+	return true;
+}
+
+static double
+ring_distance(const ty_point a[5], const ty_point b[5])
+{
+	double least = INFINITY;
+
+	if (inside(a, b[0]) || inside(b, a[0]))
+		return 0;
+	for (int i = 0; i < 4; i++)
+		for (int j = 0; j < 4; j++)
+		{
+			if (edges_cross(a[i], a[i + 1], b[j], b[j + 1]))
+				return 0;
+			least = fmin(least, point_to_segment(a[i], b[j], b[j + 1]));
+			least = fmin(least, point_to_segment(b[j], a[i], a[i + 1]));
+		}
+	return least;
+}
+
+/* relative to the first placeholder, for precision */
+static void
+ring_of(const ty_placeholder *p, const ty_placeholder *origin, ty_point ring[5])
+{
+	ty_rectangle((ty_point){p->x - origin->x, p->y - origin->y}, p->area, p->ratio, p->ux, p->uy, ring);
+}
+
+/* ---- what every result must be ---- */
+
+static const char *
+describe(const ty_parameters *p, size_t n, uint64_t number)
+{
+	static char text[256];
+
+	snprintf(text, sizeof text,
+			 "set %llu, %zu buildings at %g, s_u %g, side %g, area %g, gap %g, shape %d, statistic %d",
+			 (unsigned long long) number, n, p->scale, p->s_u, p->min_side, p->max_area, p->min_gap, (int) p->shape,
+			 (int) p->area_statistic);
+	return text;
+}
+
+static bool
+surely_apart(const ty_placeholder *a, const ty_placeholder *b, double gap)
+{
+	return fmax(fabs(a->x - b->x), fabs(a->y - b->y)) > a->length + b->length + gap;
+}
+
+static void
+check_apart(const ty_result *r, const ty_parameters *p, const char *set)
+{
+	for (size_t i = 1; i < r->count; i++)
+		for (size_t j = 0; j < i; j++)
+		{
+			ty_point a[5], b[5];
+			double distance;
+
+			if (!(r->placeholders[i].area > 0) || !(r->placeholders[j].area > 0) ||
+				surely_apart(&r->placeholders[i], &r->placeholders[j], p->min_gap))
+				continue;
+			ring_of(&r->placeholders[i], &r->placeholders[0], a);
+			ring_of(&r->placeholders[j], &r->placeholders[0], b);
+			distance = ring_distance(a, b);
+			CHECK(distance >= p->min_gap * (1 - TOLERANCE), "%s: %zu and %zu are %.17g apart", set, i, j, distance);
+		}
+}
+
+/* the mean of the members' places, and so where an unmoved placeholder would be */
+static ty_point
+mean_place(const ty_building *b, const uint32_t *members, size_t count)
+{
+	double x = 0, y = 0;
+
+	for (size_t i = 0; i < count; i++)
+	{
+		x += b[members[i]].x - b[members[0]].x;
+		y += b[members[i]].y - b[members[0]].y;
+	}
+	return (ty_point){b[members[0]].x + x / (double) count, b[members[0]].y + y / (double) count};
+}
+
+static void
+check_sizes(const ty_building *b, const ty_result *r, const ty_parameters *p, const char *set)
+{
+	for (size_t i = 0; i < r->count; i++)
+	{
+		const ty_placeholder *q = &r->placeholders[i];
+		ty_point home = mean_place(b, r->members + q->first, q->count);
+		double moved = hypot(q->x - home.x, q->y - home.y), rounding = 1e-9 * (fabs(home.x) + fabs(home.y) + 1e5);
+		double limit =
+			p->max_area > 0 ? fmax(p->max_area, fmax(q->statistic, 1.5 * p->min_side * p->min_side)) : INFINITY;
+
+		if (!(q->area > 0))
+			continue;
+		CHECK(q->width >= p->min_side * (1 - TOLERANCE), "%s: %zu is %.17g wide", set, i, q->width);
+		CHECK(q->width <= q->length * (1 + TOLERANCE), "%s: %zu is %.17g by %.17g", set, i, q->width, q->length);
+		CHECK(q->area <= limit * (1 + TOLERANCE), "%s: %zu is as large as %.17g", set, i, q->area);
+		CHECK(moved <= fmax(p->min_gap, 0.5 * q->length) * (1 + TOLERANCE) + rounding, "%s: %zu, %g long, moved %g",
+			  set, i, q->length, moved);
+	}
+}
+
+static void
+check_nobody_lost(const ty_result *r, size_t n, const char *set)
+{
+	bool seen[MOST] = {false};
+	size_t total = 0;
+
+	for (size_t i = 0; i < r->count; i++)
+	{
+		const ty_placeholder *q = &r->placeholders[i];
+
+		CHECK(q->first == total, "%s: members of %zu begin at %u", set, i, q->first);
+		total += q->count;
+		for (size_t k = 0; k < q->count; k++)
+		{
+			uint32_t m = r->members[q->first + k];
+
+			CHECK(m < n && !seen[m], "%s: building %u", set, m);
+			seen[m] = true;
+		}
+	}
+	CHECK(total == n, "%s: %zu members", set, total);
+}
+
+/* ---- random groups ---- */
+
+static void
+random_place(random_state *r, int kind, size_t i, double span, ty_building *b)
+{
+	switch (kind)
+	{
+		case 0: /* anywhere */
+			b->x = span * random_unit(r);
+			b->y = span * random_unit(r);
+			break;
+		case 1: /* a row */
+			b->x = span * (double) i / MOST;
+			b->y = 0.3 * b->x;
+			break;
+		case 2: /* few places */
+			b->x = span * (double) random_between(r, 0, 2);
+			b->y = span * (double) random_between(r, 0, 1);
+			break;
+		case 3: /* a lattice */
+			b->x = span / 6 * (double) (i % 6);
+			b->y = span / 6 * (double) (i / 6);
+			break;
+		default: /* dense in the middle */
+			b->x = span * random_unit(r) * random_unit(r) * random_unit(r);
+			b->y = span * random_unit(r) * random_unit(r) * random_unit(r);
+	}
+}
+
+static size_t
+random_group(random_state *r, ty_building *b, ty_parameters *p)
+{
+	static const double spans[] = {1, 50, 300, 1000, 3000};
+	static const double origins[] = {0, -4000, 2.7e6, 1e9};
+	size_t n = (size_t) random_between(r, 1, MOST);
+	int kind = (int) random_between(r, 0, 4);
+	double span = spans[random_between(r, 0, 4)], origin = origins[random_between(r, 0, 3)];
+
+	for (size_t i = 0; i < n; i++)
+	{
+		double angle = 3.14159 * random_unit(r);
+
+		random_place(r, kind, i, span, &b[i]);
+		b[i].x += origin;
+		b[i].y += origin;
+		b[i].area = random_between(r, 0, 9) == 0 ? 0 : pow(10, 1 + 3 * random_unit(r));
+		b[i].ratio = b[i].area > 0 ? 0.02 + 0.98 * random_unit(r) : 1;
+		b[i].ux = random_between(r, 0, 2) == 0 ? 1 : cos(angle);
+		b[i].uy = b[i].ux == 1 ? 0 : sin(angle);
+		b[i].id = (int64_t) i;
+	}
+	*p = (ty_parameters){.scale = 25000 * (1 + floor(20 * random_unit(r) * random_unit(r))),
+						 .s_u = 0.5 * (double) random_between(r, 0, 2),
+						 .source_scale = TY_DEFAULT_SOURCE_SCALE,
+						 .lod200_scale = TY_DEFAULT_LOD200_SCALE,
+						 .exponent = 2 * random_unit(r),
+						 .psi = random_unit(r),
+						 .law = true,
+						 .area_statistic = (ty_area_statistic) random_between(r, 0, 2),
+						 .shape = (ty_shape) random_between(r, 0, 1)};
+	p->min_side = 0.35 * (double) random_between(r, 0, 2);
+	p->max_area = p->min_side * p->min_side * (double) random_between(r, 0, 2);
+	p->min_gap = 0.05 * (double) random_between(r, 1, 8);
+	ty_bring_to_ground(p, 1);
+	return n;
+}
+
+static void
+random_small_groups_have_no_violation(void)
+{
+	random_state r = random_seed(4);
+	ty_building b[MOST];
+	ty_parameters p;
+	size_t groups = getenv("SETS") != NULL ? (size_t) atol(getenv("SETS")) : GROUPS;
+	size_t asked = 0, left = 0;
+
+	for (uint64_t k = 0; k < groups && check_failures < CHECK_SHOWN; k++)
+	{
+		size_t n = random_group(&r, b, &p);
+		const char *set = describe(&p, n, k);
+		ty_input input = {.buildings = b, .n = n};
+		ty_result result;
+		ty_status status = ty_typify(&ty_plain_environment, &input, &p, &result);
+
+		NEED(status == TY_OK, "%s: status %d", set, (int) status);
+		asked += ty_count(n, &p, 1);
+		left += result.count;
+		check_apart(&result, &p, set);
+		check_sizes(b, &result, &p, set);
+		check_nobody_lost(&result, n, set);
+		ty_result_free(&ty_plain_environment, &result);
+	}
+	printf("  information: %zu groups, the law leaves %zu placeholders, %zu are legible\n", groups, asked, left);
+}
+
+static int
+compare_places(const void *a, const void *b)
+{
+	return memcmp(a, b, offsetof(ty_placeholder, representative));
+}
+
+static void
+the_order_of_buildings_does_not_matter(void)
+{
+	random_state r = random_seed(5);
+	ty_building b[MOST], shuffled[MOST];
+	ty_parameters p;
+
+	for (uint64_t k = 0; k < 2000 && check_failures < CHECK_SHOWN; k++)
+	{
+		size_t n = random_group(&r, b, &p);
+		ty_result one, other;
+		ty_input input = {.buildings = b, .n = n}, again = {.buildings = shuffled, .n = n};
+
+		memcpy(shuffled, b, sizeof b);
+		for (size_t i = n; i > 1; i--)
+		{
+			size_t j = (size_t) random_between(&r, 0, (int64_t) i - 1);
+			ty_building swap = shuffled[i - 1];
+
+			shuffled[i - 1] = shuffled[j];
+			shuffled[j] = swap;
+		}
+		NEED(ty_typify(&ty_plain_environment, &input, &p, &one) == TY_OK &&
+				 ty_typify(&ty_plain_environment, &again, &p, &other) == TY_OK,
+			 "%s", describe(&p, n, k));
+		CHECK(one.count == other.count, "%s: %zu and %zu", describe(&p, n, k), one.count, other.count);
+		for (size_t i = 0; i < one.count && i < other.count; i++)
+			CHECK(compare_places(&one.placeholders[i], &other.placeholders[i]) == 0, "%s: %zu", describe(&p, n, k), i);
+		ty_result_free(&ty_plain_environment, &one);
+		ty_result_free(&ty_plain_environment, &other);
+	}
+}
+
+/* ---- the ladder, step by step ---- */
+
+static ty_parameters
+at_100000(void)
+{
+	ty_parameters p = {.scale = 100000,
+					   .source_scale = TY_DEFAULT_SOURCE_SCALE,
+					   .lod200_scale = TY_DEFAULT_LOD200_SCALE,
+					   .exponent = 0,
+					   .psi = TY_DEFAULT_PSI,
+					   .law = true};
+
+	p.min_side = 35;
+	p.max_area = 2450;
+	p.min_gap = 20;
+	return p;
+}
+
+static ty_building
+house(double x, double area)
+{
+	return (ty_building){.x = x, .area = area, .ratio = 1, .ux = 1, .id = (int64_t) x};
+}
+
+static void
+typify(const ty_building *b, size_t n, const ty_parameters *p, ty_result *result)
+{
+	ty_input input = {.buildings = b, .n = n};
+	ty_status status = ty_typify(&ty_plain_environment, &input, p, result);
+
+	CHECK(status == TY_OK, "status %d", (int) status);
+}
+
+static void
+where_there_is_room_nothing_changes(void)
+{
+	ty_building b[] = {house(0, 100), house(200, 400), house(400, 100)};
+	ty_parameters p = at_100000(), plain = p;
+	ty_result legible, as_before;
+
+	plain.min_gap = 0;
+	typify(b, 3, &p, &legible);
+	typify(b, 3, &plain, &as_before);
+	CHECK(legible.count == 3 && as_before.count == 3, "%zu and %zu", legible.count, as_before.count);
+	for (size_t i = 0; i < 3; i++)
+		CHECK(compare_places(&legible.placeholders[i], &as_before.placeholders[i]) == 0, "%zu", i);
+	ty_result_free(&ty_plain_environment, &legible);
+	ty_result_free(&ty_plain_environment, &as_before);
+}
+
+/* two of 400 are drawn 49.5 wide: at 60 apart both can be 40, which is more than the minimum side and true size */
+static void
+growth_is_taken_back_before_anybody_moves(void)
+{
+	ty_building b[] = {house(0, 400), house(62, 400)};
+	ty_parameters p = at_100000();
+	ty_result r;
+
+	typify(b, 2, &p, &r);
+	CHECK(r.count == 2 && r.placeholders[0].x == 0 && r.placeholders[1].x == 62, "%zu at %g and %g", r.count,
+		  r.placeholders[0].x, r.placeholders[1].x);
+	CHECK(r.placeholders[0].width < 49 && r.placeholders[0].width >= 35, "%g wide", r.placeholders[0].width);
+	CHECK(r.placeholders[0].width + r.placeholders[1].width > 83, "shrunk more than needed: %g and %g",
+		  r.placeholders[0].width, r.placeholders[1].width);
+	ty_result_free(&ty_plain_environment, &r);
+}
+
+/* halls of 60 by 60 are not drawn smaller while they can move: 70 apart they need 80 */
+static void
+nobody_is_drawn_below_true_size_while_it_can_move(void)
+{
+	ty_building b[] = {house(0, 3600), house(70, 3600)};
+	ty_parameters p = at_100000();
+	ty_result r;
+
+	typify(b, 2, &p, &r);
+	CHECK(r.count == 2 && r.placeholders[0].width == 60 && r.placeholders[1].width == 60, "%g and %g wide",
+		  r.placeholders[0].width, r.placeholders[1].width);
+	CHECK(r.placeholders[0].x < 0 && r.placeholders[1].x > 70, "at %g and %g", r.placeholders[0].x,
+		  r.placeholders[1].x);
+	CHECK(r.placeholders[1].x - r.placeholders[0].x < 82, "moved more than needed: at %g and %g", r.placeholders[0].x,
+		  r.placeholders[1].x);
+	ty_result_free(&ty_plain_environment, &r);
+}
+
+/* between two others there is no room to move, so the halls become smaller, not fewer */
+static void
+then_it_is_shrunk_below_true_size(void)
+{
+	ty_building b[] = {house(0, 3600), house(50, 3600), house(100, 3600), house(150, 3600)};
+	ty_parameters p = at_100000();
+	ty_result r;
+	size_t shrunk = 0;
+
+	typify(b, 4, &p, &r);
+	CHECK(r.count == 4, "%zu are left", r.count);
+	for (size_t i = 0; i < r.count; i++)
+	{
+		CHECK(r.placeholders[i].width >= 35, "%g wide", r.placeholders[i].width);
+		shrunk += r.placeholders[i].width < 60;
+	}
+	CHECK(shrunk > 0, "none is shrunk");
+	ty_result_free(&ty_plain_environment, &r);
+}
+
+static void
+at_last_two_are_joined(void)
+{
+	ty_building b[] = {house(0, 100), house(10, 400), house(20, 100), house(30, 100)};
+	ty_parameters p = at_100000();
+	ty_result r;
+	size_t members = 0;
+
+	typify(b, 4, &p, &r);
+	CHECK(r.count == 2, "%zu are left", r.count);
+	for (size_t i = 0; i < r.count; i++)
+		members += r.placeholders[i].count;
+	CHECK(members == 4, "%zu members", members);
+	ty_result_free(&ty_plain_environment, &r);
+}
+
+/* ---- sites of groups that are not joined ---- */
+
+static ty_site
+square_site(double x, double side, uint32_t group, uint32_t weight)
+{
+	return (ty_site){.home = {x, 0},
+					 .ux = 1,
+					 .full = {side, side},
+					 .own = {side, side},
+					 .least = {10, 10},
+					 .weight = weight,
+					 .group = group,
+					 .size = 2};
+}
+
+static void
+sites_of_different_groups_are_hidden_last(void)
+{
+	ty_site s[] = {square_site(0, 10, 0, 3), square_site(1, 10, 1, 2), square_site(2, 10, 2, 1)};
+	ty_legibility rules = {.gap = 8};
+	ty_status status = ty_make_legible(&ty_plain_environment, &rules, s, 3);
+
+	CHECK(status == TY_OK, "status %d", (int) status);
+	CHECK(s[0].state == TY_DRAWN && s[1].state == TY_HIDDEN && s[2].state == TY_DRAWN, "states %d %d %d",
+		  (int) s[0].state, (int) s[1].state, (int) s[2].state);
+}
+
+/* three of one group, just far enough apart as they came, pushed together from both sides */
+static void
+sites_of_one_group_go_back_to_where_they_were_apart(void)
+{
+	ty_site s[] = {square_site(0, 10, 0, 1), square_site(18, 10, 0, 1), square_site(36, 10, 0, 1),
+				   square_site(-12, 10, 1, 1), square_site(48, 10, 2, 1)};
+	ty_legibility rules = {.gap = 8};
+	ty_status status;
+
+	s[3].fixed = s[4].fixed = true;
+	status = ty_make_legible(&ty_plain_environment, &rules, s, 5);
+	CHECK(status == TY_OK && s[1].state == TY_DRAWN && s[3].state == TY_DRAWN && s[4].state == TY_DRAWN,
+		  "status %d, states %d %d %d", (int) status, (int) s[0].state, (int) s[1].state, (int) s[2].state);
+	for (int i = 1; i < 5; i++)
+		for (int j = 0; j < i; j++)
+			if (s[i].state == TY_DRAWN && s[j].state == TY_DRAWN)
+				CHECK(fabs(s[i].home.x + s[i].moved.x - s[j].home.x - s[j].moved.x) >= 18 * (1 - TOLERANCE) ||
+						  fabs(s[i].moved.y - s[j].moved.y) >= 18 * (1 - TOLERANCE),
+					  "%d and %d", i, j);
+}
+
+static void
+fixed_sites_stay_and_the_others_yield(void)
+{
+	ty_site s[] = {square_site(0, 30, 0, 1), square_site(20, 10, 1, 9), square_site(4, 30, 2, 1),
+				   square_site(40, 10, 3, 1)};
+	ty_legibility rules = {.gap = 8};
+	ty_status status;
+
+	s[0].fixed = s[2].fixed = true;
+	status = ty_make_legible(&ty_plain_environment, &rules, s, 4);
+	CHECK(status == TY_OK && s[0].state == TY_DRAWN && s[2].state == TY_DRAWN, "status %d", (int) status);
+	CHECK(s[0].moved.x == 0 && s[0].size == 2 && s[2].moved.x == 0 && s[2].size == 2, "moved %g, %g", s[0].moved.x,
+		  s[2].moved.x);
+	CHECK(s[1].state == TY_HIDDEN || s[1].home.x + s[1].moved.x > 19 + 8 + 4.9, "the second at %g",
+		  s[1].home.x + s[1].moved.x);
+	CHECK(s[3].state == TY_DRAWN, "the last is gone");
+}
+
+/* ---- crowds ---- */
+
+/* everybody at one place, and everybody close together */
+static void
+crowds_end_soon(void)
+{
+	enum
+	{
+		CROWDED = 20000
+	};
+	ty_building *b = malloc(CROWDED * sizeof *b);
+	random_state r = random_seed(6);
+
+	for (int kind = 0; kind < 3; kind++)
+		for (int statistic = TY_MEAN; statistic <= TY_MEDIAN; statistic++)
+		{
+			ty_parameters p = at_100000();
+			ty_result result;
+
+			for (size_t i = 0; i < CROWDED; i++)
+			{
+				b[i] = house(kind == 0 ? 5 : 300 * random_unit(&r), 100 + (double) (i % 7));
+				b[i].y = kind == 2 ? 300 * random_unit(&r) : 5;
+				b[i].id = (int64_t) i;
+			}
+			p.area_statistic = (ty_area_statistic) statistic;
+			typify(b, CROWDED, &p, &result);
+			CHECK(result.count >= 1 && result.count < 60, "kind %d: %zu are left", kind, result.count);
+			check_apart(&result, &p, "crowd");
+			ty_result_free(&ty_plain_environment, &result);
+		}
+	free(b);
+}
+
+int
+main(int argc, char **argv)
+{
+	check_begin(argc, argv);
+	RUN(where_there_is_room_nothing_changes);
+	RUN(growth_is_taken_back_before_anybody_moves);
+	RUN(nobody_is_drawn_below_true_size_while_it_can_move);
+	RUN(then_it_is_shrunk_below_true_size);
+	RUN(at_last_two_are_joined);
+	RUN(sites_of_different_groups_are_hidden_last);
+	RUN(sites_of_one_group_go_back_to_where_they_were_apart);
+	RUN(fixed_sites_stay_and_the_others_yield);
+	RUN(the_order_of_buildings_does_not_matter);
+	RUN(crowds_end_soon);
+	RUN(random_small_groups_have_no_violation);
+	return check_end();
+}
