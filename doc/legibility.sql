@@ -25,10 +25,15 @@ $$
 		SELECT typify_placeholders(geom, id, scale, 0.5, options, CASE WHEN weighted THEN worth ELSE 1 END) AS list FROM source) AS t, unnest(list) AS p
 	WHERE name = picture
 $$;
+CREATE VIEW all_main_roads AS SELECT ST_Collect(geom) AS geom FROM main_roads;
 SELECT count(derive(name, false, 'Without')) AS without FROM scene;
 SELECT derive('rows', true, 'With alignment', typify_options(alignment => 5)) AS rows;
 SELECT derive('important', true, 'With importance, keep_area', typify_options(keep_area => 0.5), true) AS important;
 SELECT derive('sizes', true, 'With min_side, keep_area', typify_options(min_side => 0.35, keep_area => 0.5)) AS sizes;
+SELECT derive('gaps', true, 'With min_gap, barriers',
+	typify_options(min_side => 0.35, min_gap => 0.2, barriers => geom, barrier_width => 0.5)) AS gaps FROM all_main_roads;
+SELECT derive('all', true, 'With all of it', typify_options(alignment => 5, keep_area => 0.5, min_side => 0.35, min_gap => 0.2,
+	barriers => geom, barrier_width => 0.5), true) AS all_of_it FROM all_main_roads;
 
 -- ---- the figures, over all of the place ----
 

@@ -5,7 +5,7 @@
 # PICTURES: a folder that gets the pictures. UPDATE: 1 writes the figures into the page.
 . "$(dirname "$0")/common.sh"
 page=doc/legibility.md
-pictures="rows important sizes"
+pictures="rows important sizes gaps all"
 REAL_DATA=${TYPIFY_DATA:-../shared/data}/liechtenstein_2024
 scene='CREATE TABLE scene (name text, scale float8, magnify float8, frame geometry)'
 
