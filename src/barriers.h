@@ -1,9 +1,9 @@
 /*
  * barriers.h - the lines of the option barriers, kept once however many groups and rows they are given for.
  *
- * They may be many megabytes. So a group's state refers to a set of them, which is made of the bytes when they are first
- * seen, and told from others by a hash. Where the option is constant for the query a parallel worker sends the hash
- * alone, and the leader takes the bytes from its own copy of the argument; else they travel with every state.
+ * They may be many megabytes. So a group's state refers to a set of them, which is made of the bytes when they are
+ * first seen, and told from others by a hash. Where the option is constant for the query a parallel worker sends the
+ * hash alone, and the leader takes the bytes from its own copy of the argument; else they travel with every state.
  */
 #ifndef TY_BARRIERS_H
 #define TY_BARRIERS_H

@@ -28,8 +28,8 @@ argument_expression(FunctionCallInfo fcinfo, int argument)
 }
 
 /*
- * The least constant of the arguments decides how often they are looked at. Where an aggregate runs as a window function
- * nothing is known of them, and they are compared for every row.
+ * The least constant of the arguments decides how often they are looked at. Where an aggregate runs as a window
+ * function nothing is known of them, and they are compared for every row.
  */
 static void
 find_constancy(ty_call *call, FunctionCallInfo fcinfo, int first)

@@ -11,7 +11,10 @@
 #include "core/placeholder.h"
 #include "srid.h"
 
-/* scale, s_u, options, barriers; all but scale may not be given. Barriers may be an option or, for wrappers, an argument. */
+/*
+ * scale, s_u, options, barriers; all but scale may not be given. Barriers may be an option or, for wrappers, an
+ * argument.
+ */
 #define TY_CALL_ARGUMENTS 4
 
 typedef struct ty_call

@@ -34,9 +34,9 @@ extern Datum ty_ring_datum(const ty_point *ring, uint32 n, int32 srid);
 extern Datum ty_line_datum(int32 srid, uint32 n, ty_point **points);
 
 /*
- * The outline that a building, which has been measured, is drawn with when it represents others, in the current context;
- * NULL for a rectangle. footprint: that of a POLYGON or of the largest polygon of a MULTIPOLYGON. auto: that of a kept
- * building, without what is too small to see. p: lengths in millimetres.
+ * The outline that a building, which has been measured, is drawn with when it represents others, in the current
+ * context; NULL for a rectangle. footprint: that of a POLYGON or of the largest polygon of a MULTIPOLYGON. auto: that
+ * of a kept building, without what is too small to see. p: lengths in millimetres.
  */
 extern ty_outline *ty_outline_to_draw(Datum geometry, const ty_building *building, double importance,
 									  const ty_parameters *p, double metres_per_unit, Oid geometry_type);

@@ -50,10 +50,10 @@ ty_geometry_status ty_geometry_has_points(const unsigned char *payload, size_t s
 typedef bool (*ty_points_visitor)(void *context, const unsigned char *points, size_t stride, uint32_t n);
 
 /*
- * Visits the lines and rings of lines and polygons, single, multi or in collections of any depth, whose points are passed
- * over. TY_GEOMETRY_EMPTY when there is nothing at all; TY_GEOMETRY_UNSUPPORTED, with its *type, for a curve, a surface
- * or TIN anywhere, and where all there is are points. *srid and *type are set unless the status is TY_GEOMETRY_CORRUPT.
- * The lines before what is wrong have been visited.
+ * Visits the lines and rings of lines and polygons, single, multi or in collections of any depth, whose points are
+ * passed over. TY_GEOMETRY_EMPTY when there is nothing at all; TY_GEOMETRY_UNSUPPORTED, with its *type, for a curve, a
+ * surface or TIN anywhere, and where all there is are points. *srid and *type are set unless the status is
+ * TY_GEOMETRY_CORRUPT. The lines before what is wrong have been visited.
  */
 ty_geometry_status ty_geometry_visit_lines(const unsigned char *payload, size_t size, ty_points_visitor visit,
 										   void *context, int32_t *srid, uint32_t *type);
@@ -79,8 +79,8 @@ ty_geometry_status ty_geometry_outline(const ty_environment *env, const unsigned
 									   ty_outline **outline);
 
 /*
- * A copy of a geometry of any type with every point moved in x and y, with another SRID and without a box. copy: room for
- * size bytes; *copy_size: how many it takes. False: corrupt.
+ * A copy of a geometry of any type with every point moved in x and y, with another SRID and without a box. copy: room
+ * for size bytes; *copy_size: how many it takes. False: corrupt.
  */
 bool ty_geometry_move(const unsigned char *payload, size_t size, int32_t srid,
 					  ty_point (*move)(const void *context, ty_point p), const void *context, unsigned char *copy,

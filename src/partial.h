@@ -6,7 +6,9 @@
 
 #include "compat.h"
 
-/* An argument's number from 0, its value, its type, and whether it stays the same for the query. True ends the search. */
+/*
+ * An argument's number from 0, its value, its type, and whether it stays the same for the query. True ends the search.
+ */
 typedef bool (*ty_argument_visit)(void *context, int argument, Datum value, Oid type, bool per_query);
 
 /*

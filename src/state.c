@@ -17,8 +17,9 @@
 
 /*
  * A state as it travels between the processes of one parallel query: this header, then the buildings, then their
- * importances if there are any, then the outlines, each behind the number of its building, then the geometry of barriers that are not constant for the query.
- * Both sides run the same library on the same machine, so values are copied as they are.
+ * importances if there are any, then the outlines, each behind the number of its building, then the geometry of
+ * barriers that are not constant for the query. Both sides run the same library on the same machine, so values are
+ * copied as they are.
  */
 typedef struct state_image
 {

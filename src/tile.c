@@ -1,7 +1,7 @@
 /*
  * tile.c - polygons in the units of a vector tile. A tile holds thousands of placeholders, each a rectangle: to project
- * and clip them one by one (ST_Transform, ST_AsMVTGeom) takes several times as long as all the rest. So the corners of a
- * lattice are projected in one call, and polygons are placed between them; core/tile.h says why that does no harm.
+ * and clip them one by one (ST_Transform, ST_AsMVTGeom) takes several times as long as all the rest. So the corners of
+ * a lattice are projected in one call, and polygons are placed between them; core/tile.h says why that does no harm.
  *
  *     lattice := typify_tile_lattice(box of the polygons);		a LINESTRING
  *     frame := typify_tile_frame(lattice, ST_Transform(lattice, 3857), z, x, y);

@@ -1,12 +1,12 @@
 /*
  * alignment.c - rows of buildings, see alignment.h.
  *
- * After Christophe and Ruas ("Detecting building alignments for generalisation purposes", 2002), who look for
- * buildings along straight lines and keep the groups that are regular in spacing, size and orientation. Here a row is
- * put together of triples: a building with one neighbour on either side, such that the three are alike, evenly spaced
- * and nearly on a line. So a row may curve gently, and no template lines have to be tried. Neighbours are those in the
- * Delaunay mesh, as in Zhang, Ai, Stoter, Kraak and Molenaar ("Building pattern recognition in topographic data", 2013);
- * a small building, like a garage, is looked past.
+ * After Christophe and Ruas ("Detecting building alignments for generalisation purposes", 2002), who look for buildings
+ * along straight lines and keep the groups that are regular in spacing, size and orientation. Here a row is put
+ * together of triples: a building with one neighbour on either side, such that the three are alike, evenly spaced and
+ * nearly on a line. So a row may curve gently, and no template lines have to be tried. Neighbours are those in the
+ * Delaunay mesh, as in Zhang, Ai, Stoter, Kraak and Molenaar ("Building pattern recognition in topographic data",
+ * 2013); a small building, like a garage, is looked past.
  *
  *   1. Every building chooses the best triple that it is the middle of.
  *   2. Two neighbours that chose one another are linked: at most two links a building.

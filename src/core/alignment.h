@@ -67,11 +67,11 @@ ty_status ty_rows_of_group(const ty_environment *env, const ty_building *buildin
  *
  * Two vertices that follow each other in a row are inside it. They are merged in the order of a tree that halves the
  * row again and again, so that at any time no vertex stands for more than twice as many members as another and one, and
- * large and small ones alternate. For that the edge counts as long as the row's vertices are apart, on average, when its turn
- * has come: as many of them are left by then as the tree says. (Were the shortest edge to go first, equal spacings
- * would be thinned from one end.) What stands beside a member, like its garage, in no row and nearer than the spacing, is inside as well, as long as
- * the merged vertex goes on in the row. Every other edge at a vertex of a row leaves it, and is lengthened by
- * 1 + alignment. size: buildings of both together.
+ * large and small ones alternate. For that the edge counts as long as the row's vertices are apart, on average, when
+ * its turn has come: as many of them are left by then as the tree says. (Were the shortest edge to go first, equal
+ * spacings would be thinned from one end.) What stands beside a member, like its garage, in no row and nearer than the
+ * spacing, is inside as well, as long as the merged vertex goes on in the row. Every other edge at a vertex of a row
+ * leaves it, and is lengthened by 1 + alignment. size: buildings of both together.
  */
 double ty_aligned_length(const ty_rows *rows, ty_span a, ty_span b, uint64_t size, double length, double alignment);
 

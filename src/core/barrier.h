@@ -5,8 +5,8 @@
  * brought onto its grid (ty_barriers), where whether one lies between two places is decided by whole numbers alone.
  *
  * Touching. A place on a barrier, and an edge along one, would be on neither side. So places count as moved by an
- * infinitesimal (e, e * e) to the right and up, barriers do not: then no place lies on a barrier, none passes through an
- * end of one, and every edge either crosses or does not. What stands on a line belongs to its right side, of a
+ * infinitesimal (e, e * e) to the right and up, barriers do not: then no place lies on a barrier, none passes through
+ * an end of one, and every edge either crosses or does not. What stands on a line belongs to its right side, of a
  * horizontal line to the upper one. Places that are joined by uncrossed edges lie in one cell, that is on one side of
  * every closed barrier, however many edges in a row.
  */
@@ -93,8 +93,8 @@ void ty_barriers_free(ty_barriers *barriers);
 bool ty_barriers_cross(const ty_barriers *barriers, ty_position a, ty_position b);
 
 /*
- * Whether one lies between a and b, between a and merged, or between merged and b, where merged is on the edge from a to
- * b but for a cell in either coordinate. Exact. As influences want it (influence.h).
+ * Whether one lies between a and b, between a and merged, or between merged and b, where merged is on the edge from a
+ * to b but for a cell in either coordinate. Exact. As influences want it (influence.h).
  */
 bool ty_barriers_bar(const ty_barriers *barriers, ty_position a, ty_position b, ty_position merged);
 

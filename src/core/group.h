@@ -34,7 +34,9 @@ typedef struct ty_placeholder
 	 */
 	double x, y;
 	double area; /* what is drawn, ground units; 0: no size, not drawn */
-	/* of the rectangle; where the representative has an outline, of the one around it, whose centre is not the vertex */
+	/*
+	 * of the rectangle; where the representative has an outline, of the one around it, whose centre is not the vertex
+	 */
 	double width, length;
 	double statistic;		 /* of the members' areas, unscaled */
 	double ratio;			 /* width / length; of the representative unless min_side changed it, 1 for squares */
@@ -64,8 +66,8 @@ typedef struct ty_result
  */
 ty_status ty_typify(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_result *result);
 /*
- * The placeholder as a site (legibility.h) to which nothing has been done. p, input: as its group was typified with; the
- * site's group is 0.
+ * The placeholder as a site (legibility.h) to which nothing has been done. p, input: as its group was typified with;
+ * the site's group is 0.
  */
 void ty_placeholder_site(const ty_parameters *p, const ty_input *input, const ty_placeholder *placeholder,
 						 ty_site *site);

@@ -1,8 +1,8 @@
 /*
  * hierarchy.c - see hierarchy.h
  *
- * The merge sequence is replayed: forwards for what a node is made of, backwards for the numbers of the leaves below it,
- * and once more for its life span. While it is being made a leaf goes by its rank.
+ * The merge sequence is replayed: forwards for what a node is made of, backwards for the numbers of the leaves below
+ * it, and once more for its life span. While it is being made a leaf goes by its rank.
  */
 #include "hierarchy.h"
 

@@ -50,7 +50,8 @@ typedef struct ty_hierarchy
 
 /*
  * The whole way of one group, down to a single vertex where the influences let it. p->scale and p->psi are not looked
- * at, outlines neither; p has no min_area and no keep_area. The arrays come from env; ty_hierarchy_free gives them back.
+ * at, outlines neither; p has no min_area and no keep_area. The arrays come from env; ty_hierarchy_free gives them
+ * back.
  */
 ty_status ty_hierarchy_build(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_hierarchy *h);
 void ty_hierarchy_free(const ty_environment *env, ty_hierarchy *h);

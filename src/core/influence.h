@@ -31,8 +31,8 @@ typedef struct ty_influence
 	ty_status (*find_rows)(const void *context, const ty_mesh *mesh, ty_rows *rows);
 	const void *context; /* of find_rows */
 	/*
-	 * Whether the edge from a to b, which differ, crosses a barrier, or one of the two ways to where they would be merged:
-	 * that is on the edge, but for rounding. The same with a and b exchanged. NULL: no barriers.
+	 * Whether the edge from a to b, which differ, crosses a barrier, or one of the two ways to where they would be
+	 * merged: that is on the edge, but for rounding. The same with a and b exchanged. NULL: no barriers.
 	 */
 	bool (*crosses)(const ty_barriers *barriers, ty_position a, ty_position b, ty_position merged);
 	const ty_barriers *barriers;

@@ -48,9 +48,10 @@ typedef struct ty_legibility
 	const ty_barrier_lines *lines; /* NULL: none. No site comes to lie across one, or nearer to it than ... */
 	double line_gap;			   /* ... this, but for fixed ones */
 	/*
-	 * Makes the site `kept` what both are together, at home and at full size: one more collapse. in_place: TY_NO_SITE, or
-	 * that of the two whose home stays what it is, because the other comes from across a line. NULL: none are joined, as
-	 * where the sites of each group have been made legible before; then a group's sites stay apart as they came.
+	 * Makes the site `kept` what both are together, at home and at full size: one more collapse. in_place: TY_NO_SITE,
+	 * or that of the two whose home stays what it is, because the other comes from across a line. NULL: none are
+	 * joined, as where the sites of each group have been made legible before; then a group's sites stay apart as they
+	 * came.
 	 */
 	ty_status (*join)(void *context, uint32_t kept, uint32_t gone, uint32_t in_place, ty_site *site);
 	/* Told of two fixed sites that are nearer than the gap, which stay. May be NULL. */

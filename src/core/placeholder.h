@@ -115,8 +115,8 @@ size_t ty_count(size_t n, const ty_parameters *p, double mean_area);
 
 /*
  * The smallest scale of at least p->source_scale at which ty_count of n buildings is below count: found by the law's
- * inverse, then among the doubles next to it. INFINITY: there is none, as for a count of 1. For the radical law, without
- * p->count; p->scale is not looked at.
+ * inverse, then among the doubles next to it. INFINITY: there is none, as for a count of 1. For the radical law,
+ * without p->count; p->scale is not looked at.
  */
 double ty_scale_below(size_t n, size_t count, const ty_parameters *p);
 

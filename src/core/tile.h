@@ -6,9 +6,9 @@
  * a power of two that the zoom gives: whatever tile asks, a point is interpolated between the same four corners and is
  * rounded on one grid for the whole world. So a polygon is the same in all tiles that show it.
  *
- * A cell of side s is off by s^2 / 8 times the curvature of the projection: that of Mercator at 50 degrees, a quarter of
- * a unit at zoom 6 (a unit is an eighth of a pixel) and half as much at every further one. Smaller zooms
- * take the cells of zoom 6.
+ * A cell of side s is off by s^2 / 8 times the curvature of the projection: that of Mercator at 50 degrees, a quarter
+ * of a unit at zoom 6 (a unit is an eighth of a pixel) and half as much at every further one. Smaller zooms take the
+ * cells of zoom 6.
  */
 #ifndef TY_TILE_H
 #define TY_TILE_H
