@@ -124,4 +124,4 @@ AS 'MODULE_PATHNAME'
 LANGUAGE C IMMUTABLE PARALLEL SAFE;
 
 COMMENT ON FUNCTION typify_options IS
-'Makes options, by name: typify_options(exponent => 1, shape => ''square''). Arguments that are left out stay NULL, which means unset. Fields and units: see the type of the same name. Errors: 22023 for a value that is not allowed, naming the argument, the value and what is allowed. An option that is not supported yet is accepted here and refused where it is used (0A000).';
+'Makes options, by name: typify_options(exponent => 1, shape => ''square''). Arguments that are left out stay NULL, which means unset. Fields and units: see the type of the same name. Errors: 22023 for a value that is not allowed, naming the argument, the value and what is allowed.';

@@ -6,7 +6,7 @@ AS 'MODULE_PATHNAME'
 LANGUAGE C IMMUTABLE PARALLEL SAFE;
 
 COMMENT ON FUNCTION typify_count(bigint, double precision, typify_options) IS
-'How many of n buildings remain at a scale (its denominator): floor(n * (m25 / m_r)^(x/2)), at least 1 and at most n, by the radical law (Toepfer and Pillewizer 1966; paper, section on positioning), by the black-white rule (buildings are taken to have an area) or as options.count says. NULL for a NULL n or scale. Errors: 22023 for n below 0, a scale below source_scale, or when min_distance alone says when to stop; 0A000 for options that are not supported yet.';
+'How many of n buildings remain at a scale (its denominator): floor(n * (m25 / m_r)^(x/2)), at least 1 and at most n, by the radical law (Toepfer and Pillewizer 1966; paper, section on positioning), by the black-white rule (buildings are taken to have an area) or as options.count says. NULL for a NULL n or scale. Errors: 22023 for n below 0, a scale below source_scale, or when min_distance alone says when to stop.';
 
 CREATE FUNCTION typify_scale_below(
 	n bigint,
@@ -25,7 +25,7 @@ AS 'MODULE_PATHNAME'
 LANGUAGE C IMMUTABLE PARALLEL SAFE;
 
 COMMENT ON FUNCTION typify_area_factor(double precision, typify_options) IS
-'f_area (paper, section on size): by how much the area of a placeholder on the ground exceeds the mean area of its members at a scale, (m_r^2 / m25^2) * (1 - psi * (m_r - m25) / (m200 - m25)); the fraction is held at 1 beyond m200. 1 at m_r = m25. NULL for a NULL scale. Errors: 22023 for a scale below source_scale; 0A000 for options that are not supported yet; 22003 on overflow.';
+'f_area (paper, section on size): by how much the area of a placeholder on the ground exceeds the mean area of its members at a scale, (m_r^2 / m25^2) * (1 - psi * (m_r - m25) / (m200 - m25)); the fraction is held at 1 beyond m200. 1 at m_r = m25. NULL for a NULL scale. Errors: 22023 for a scale below source_scale; 22003 on overflow.';
 
 CREATE FUNCTION typify_psi(
 	mean_placeholder_area double precision,

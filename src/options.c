@@ -1,9 +1,9 @@
 /*
  * options.c - see options.h.
  *
- * A composite is taken apart into one Datum a field. The table below says for every field what it is, which
- * values it may have, and whether its behaviour is built. Values are checked when typify_options() makes a
- * composite and again at every use, since ROW(...)::typify_options and tables bring composites of any content.
+ * A composite is taken apart into one Datum a field. The table below says for every field what it is and which values
+ * it may have. Values are checked when typify_options() makes a composite and again at every use, since
+ * ROW(...)::typify_options and tables bring composites of any content.
  */
 #include "options.h"
 
@@ -50,21 +50,12 @@ typedef enum option_kind
 	LINES
 } option_kind;
 
-typedef enum option_state
-{
-	BUILT,
-	OFF_OR_UNBUILT, /* 0 means off; any other value is not supported yet */
-	UNBUILT
-} option_state;
-
 typedef struct option_entry
 {
 	const char *name;
 	option_kind kind;
-	option_state state;
 	const char *words[4]; /* of a WORD, in the order of the core's enumeration */
 	const char *choice;	  /* the words as prose */
-	int built_words;
 } option_entry;
 
 static const option_entry entries[OPTIONS] = {
@@ -74,21 +65,12 @@ static const option_entry entries[OPTIONS] = {
 	{.name = "psi", .kind = NUMBER_TO_1},
 	{.name = "count", .kind = INTEGER_FROM_1},
 	{.name = "min_distance", .kind = NUMBER_FROM_0},
-	{.name = "count_rule",
-	 .kind = WORD,
-	 .words = {"radical", "black_white"},
-	 .choice = "radical or black_white",
-	 .built_words = 2},
-	{.name = "area_statistic",
-	 .kind = WORD,
-	 .words = {"mean", "median", "sum"},
-	 .choice = "mean, median or sum",
-	 .built_words = 3},
+	{.name = "count_rule", .kind = WORD, .words = {"radical", "black_white"}, .choice = "radical or black_white"},
+	{.name = "area_statistic", .kind = WORD, .words = {"mean", "median", "sum"}, .choice = "mean, median or sum"},
 	{.name = "shape",
 	 .kind = WORD,
 	 .words = {"rectangle", "square", "footprint", "auto"},
-	 .choice = "rectangle, square, footprint or auto",
-	 .built_words = 4},
+	 .choice = "rectangle, square, footprint or auto"},
 	{.name = "min_area", .kind = NUMBER_FROM_0},
 	{.name = "min_side", .kind = NUMBER_FROM_0},
 	{.name = "max_area", .kind = NUMBER_FROM_0},
@@ -206,36 +188,6 @@ check_options(option_values *options)
 		ty_refuse_value("lod200_scale", lod200, psprintf("larger than source_scale (%s)", ty_number_text(source)));
 }
 
-static bool
-value_is_built(const option_entry *entry, Datum value)
-{
-	if (entry->state == UNBUILT)
-		return false;
-	if (entry->state == OFF_OR_UNBUILT)
-		return DatumGetFloat8(value) == 0;
-	return entry->kind != WORD || word_index(entry, value) < entry->built_words;
-}
-
-/* Nothing that is set is passed over in silence. */
-static void
-refuse_unbuilt(const option_values *options)
-{
-	for (int field = 0; field < OPTIONS; field++)
-	{
-		const option_entry *entry = &entries[field];
-
-		if (options->null[field] || value_is_built(entry, options->value[field]))
-			continue;
-		if (entry->kind == WORD)
-			ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
-					errmsg("option %s => '%s' is not supported yet", entry->name,
-						   TextDatumGetCString(options->value[field])),
-					errhint("Use '%s' or '%s'.", entry->words[0], entry->words[1]));
-		ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED), errmsg("option %s is not supported yet", entry->name),
-				errhint("Leave it out, or set it to NULL."));
-	}
-}
-
 /* Fields that a composite of an older shape lacks are unset. */
 static void
 take_apart(Datum composite, option_values *options)
@@ -306,7 +258,6 @@ resolve_options(double s_u, Datum composite, bool composite_null, ty_parameters 
 	{
 		take_apart(composite, &options);
 		check_options(&options);
-		refuse_unbuilt(&options);
 	}
 	memset(p, 0, sizeof(*p));
 	apply_options(&options, p);
@@ -371,8 +322,9 @@ ty_same_parameters(const ty_parameters *a, const ty_parameters *b)
 		   a->min_distance == b->min_distance && a->count == b->count && a->law == b->law &&
 		   a->count_rule == b->count_rule && a->area_statistic == b->area_statistic && a->shape == b->shape &&
 		   a->min_area == b->min_area && a->alignment == b->alignment && a->min_side == b->min_side &&
-		   a->max_area == b->max_area && a->keep_area == b->keep_area && a->min_gap == b->min_gap && a->barrier_width == b->barrier_width &&
-		   a->barriers.low == b->barriers.low && a->barriers.high == b->barriers.high;
+		   a->max_area == b->max_area && a->keep_area == b->keep_area && a->min_gap == b->min_gap &&
+		   a->barrier_width == b->barrier_width && a->barriers.low == b->barriers.low &&
+		   a->barriers.high == b->barriers.high;
 }
 
 /* Dropped attributes, which the shape may have behind the fields, are null. */

@@ -11,8 +11,7 @@
 /*
  * Resolves scale, s_u and options (a typify_options composite, or options_null) to parameters: every value is
  * checked, however the composite was made, then defaults are applied. Lengths on the map stay millimetres: see
- * ty_bring_to_ground. An option that is set but not built
- * yet is an error, unless its value means off.
+ * ty_bring_to_ground.
  */
 extern void ty_resolve_parameters(double scale, double s_u, Datum options, bool options_null,
 								  ty_parameters *parameters);
