@@ -193,7 +193,7 @@ function tile_section(i, zoom) {
 		"the same random tiles: 50th and 99th percentile of the time in the server, warm; how many times faster and how many " \
 		"times smaller (medians of the ratio, ratio of the bytes). From zoom 13 on both show the buildings.")
 	for (i = 1; i <= columns; i++) {
-		printf "%s%s, hierarchy built in %.1f s:\n\n", (i > 1 ? "\n" : ""), column[i], median(column[i], "hierarchy")
+		printf "%s%s, hierarchy built in %.1f s:\n\n", (i > 1 ? "\n" : ""), column[i], median(column[i], "tiles built")
 		print "| zoom | tiles | buildings in a tile | buildings | ours | faster | smaller |\n|---|---|---|---|---|---|---|"
 		for (zoom = 8; zoom <= 16; zoom++) tiles(column[i], zoom)
 		tiles(column[i], "all")
@@ -264,7 +264,7 @@ END {
 	if (choose("s_u_0") > 0) options()
 	if (choose("build_hierarchy") > 0) hierarchies()
 	if (choose("workers") > 0) workers()
-	if (choose("hierarchy") > 0) tile_section()
+	if (choose("tiles built") > 0) tile_section()
 	if (choose("core order") > 0) core_alone()
 	if (shape_count > 0) shapes()
 	if (counted > 0) instructions()

@@ -26,7 +26,7 @@ tile_runs() { # tile_runs SET
 		-c 'VACUUM ANALYZE bench_tiled'
 	say "$1: hierarchy"
 	sql -c "\\timing on" -c "CALL typify_build_hierarchy('bench_hierarchy', 'bench_tiled', 0.5)" |
-		awk -v set="$1" -v OFS='\t' '/^Time:/ { print set, "hierarchy", $2 / 1000 }' >>"$RESULTS"
+		awk -v set="$1" -v OFS='\t' '/^Time:/ { print set, "tiles built", $2 / 1000 }' >>"$RESULTS"
 	sql -f tiles.sql -o /dev/null -c "SELECT typify_create_tile_function('public', 'bench_tiles', 'bench_hierarchy')"
 	say "$1: $TILES tiles"
 	sql -c "CALL bench_time_tiles($TILES)"
