@@ -544,7 +544,7 @@ BEGIN
 	part := typify_hierarchy_parts(hierarchy);
 	ranked := part.definition->>'life_spans' = 'ranked';
 	PERFORM typify_hierarchy_note(hierarchy);
-	IF NOT EXISTS (SELECT FROM pg_index WHERE indrelid = hierarchy AND indisprimary) THEN
+	IF (SELECT bool_or(indisprimary) FROM pg_index WHERE indrelid = hierarchy) IS NOT TRUE THEN
 		EXECUTE format('ALTER TABLE %s ADD PRIMARY KEY (group_id, node)', part.nodes);
 	END IF;
 	IF ranked THEN
