@@ -68,6 +68,22 @@ ty_boxes_raise(ty_boxes *boxes)
 }
 
 void
+ty_boxes_enlarge(ty_boxes *boxes, size_t thing)
+{
+	const ty_box *box = &boxes->box[thing];
+
+	for (int level = 1; level < boxes->levels; level++)
+	{
+		ty_box *above = &boxes->box[boxes->first[level] + (thing /= TY_BOX_FAN)];
+
+		if (above->low_x <= box->low_x && above->low_y <= box->low_y && above->high_x >= box->high_x &&
+			above->high_y >= box->high_y)
+			return;
+		enlarge(above, box);
+	}
+}
+
+void
 ty_boxes_free(const ty_environment *env, ty_boxes *boxes)
 {
 	ty_release(env, boxes->box);

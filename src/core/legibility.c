@@ -20,7 +20,7 @@
 
 #define SLACK 0.01		  /* of the gap: what is aimed at beyond it, so that pushing comes to an end */
 #define ROUNDING_STEPS 16 /* units in the last place of coordinates and sides: what drawing may round away */
-#define ROUNDS 8 /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
+#define ROUNDS 8		  /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
 #define POOL_PER_SITE 32  /* numbers; a site in a town has 20 near it, of which 2 are in its way */
 #define NOT_CACHED UINT32_MAX
 
@@ -62,14 +62,28 @@ ty_place_box(ty_ladder *l, uint32_t i)
 	const ty_site *s = &l->sites[i];
 	ty_sides sides = ty_site_sides(s);
 	double factor = s->size >= 2 || !(s->full.length > 0) ? 1 : sides.length / s->full.length;
+	ty_oblong box = {s->home.x - l->origin.x + s->moved.x + factor * s->shift.x,
+					 s->home.y - l->origin.y + s->moved.y + factor * s->shift.y,
+					 s->ux,
+					 s->uy,
+					 0.5 * sides.length,
+					 0.5 * sides.width};
 
-	l->box[i] = (ty_oblong){s->home.x - l->origin.x + s->moved.x + factor * s->shift.x,
-							s->home.y - l->origin.y + s->moved.y + factor * s->shift.y,
-							s->ux,
-							s->uy,
-							0.5 * sides.length,
-							0.5 * sides.width};
-	l->radius[i] = half_diagonal(sides);
+	l->body[i] = (ty_body){box, half_diagonal(sides), s->state == TY_DRAWN, s->fixed};
+}
+
+void
+ty_move_box(ty_ladder *l, uint32_t i)
+{
+	const ty_site *s = &l->sites[i];
+
+	if (s->shift.x != 0 || s->shift.y != 0)
+	{
+		ty_place_box(l, i);
+		return;
+	}
+	l->body[i].box.x = s->home.x - l->origin.x + s->moved.x;
+	l->body[i].box.y = s->home.y - l->origin.y + s->moved.y;
 }
 
 /* how far from home any of the site can come to lie, and half of the target */
@@ -95,6 +109,7 @@ void
 ty_hide_site(ty_ladder *l, uint32_t i)
 {
 	l->sites[i].state = TY_HIDDEN;
+	l->body[i].drawn = false;
 	ty_vicinity_remove(&l->near, i);
 }
 
@@ -149,6 +164,7 @@ ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t in_place, uint32_t 
 	status = l->rules->join(l->rules->context, *kept, gone, in_place, &l->sites[*kept]);
 	l->sites[gone].state = TY_JOINED;
 	l->sites[gone].into = *kept;
+	l->body[gone].drawn = false;
 	l->start[*kept] = (ty_point){0, 0};
 	l->start_size[*kept] = 2;
 	ty_enter_site(l, *kept);
@@ -174,18 +190,6 @@ ty_find_near(ty_ladder *l, uint32_t i)
 	l->list = l->pool + l->cached[i] + 1;
 	l->list_count = l->pool[l->cached[i]];
 	return TY_OK;
-}
-
-double
-ty_sites_lack(const ty_ladder *l, uint32_t a, uint32_t b, ty_point *away)
-{
-	double dx = l->box[b].x - l->box[a].x, dy = l->box[b].y - l->box[a].y;
-	double reach = l->radius[a] + l->radius[b] + l->target;
-
-	if (dx * dx + dy * dy > reach * reach || !ty_is_drawn(l, a) || !ty_is_drawn(l, b) ||
-		(l->sites[a].fixed && l->sites[b].fixed))
-		return 0;
-	return ty_lack(&l->box[a], &l->box[b], l->target, away);
 }
 
 void
@@ -468,7 +472,7 @@ tell_collisions(ty_ladder *l)
 			ty_point away;
 
 			if (j > i && ty_is_drawn(l, j) && l->sites[j].fixed &&
-				ty_is_conflict(l, ty_lack(&l->box[i], &l->box[j], l->target, &away)))
+				ty_is_conflict(l, ty_lack(&l->body[i].box, &l->body[j].box, l->target, &away)))
 				l->rules->collide(l->rules->context, i, j);
 		}
 	}
@@ -507,8 +511,7 @@ allocate_ladder(ty_ladder *l)
 {
 	l->conflict_capacity = 256;
 	l->pool_capacity = l->n < UINT32_MAX / POOL_PER_SITE ? POOL_PER_SITE * l->n : UINT32_MAX - 1;
-	l->box = ty_allocate_array(l->env, l->n, sizeof *l->box);
-	l->radius = ty_allocate_array(l->env, l->n, sizeof *l->radius);
+	l->body = ty_allocate_array(l->env, l->n, sizeof *l->body);
 	l->start = ty_allocate_array(l->env, l->n, sizeof *l->start);
 	l->start_size = ty_allocate_array(l->env, l->n, sizeof *l->start_size);
 	l->frozen = ty_allocate_array(l->env, l->n, sizeof *l->frozen);
@@ -520,9 +523,9 @@ allocate_ladder(ty_ladder *l)
 	l->listed = ty_allocate_array(l->env, l->n, sizeof *l->listed);
 	l->degree = ty_allocate_array(l->env, l->n, sizeof *l->degree);
 	l->conflicts = ty_allocate_array(l->env, l->conflict_capacity, sizeof *l->conflicts);
-	if (l->box == NULL || l->radius == NULL || l->start == NULL || l->start_size == NULL || l->frozen == NULL ||
-		l->active == NULL || l->next == NULL || l->cached == NULL || l->by_line == NULL || l->pool == NULL ||
-		l->listed == NULL || l->degree == NULL || l->conflicts == NULL)
+	if (l->body == NULL || l->start == NULL || l->start_size == NULL || l->frozen == NULL || l->active == NULL ||
+		l->next == NULL || l->cached == NULL || l->by_line == NULL || l->pool == NULL || l->listed == NULL ||
+		l->degree == NULL || l->conflicts == NULL)
 		return TY_NO_MEMORY;
 	memset(l->cached, 0xff, l->n * sizeof *l->cached);
 	memset(l->frozen, 0, l->n * sizeof *l->frozen);
@@ -535,8 +538,7 @@ static void
 free_ladder(ty_ladder *l)
 {
 	ty_vicinity_free(&l->near);
-	ty_release(l->env, l->box);
-	ty_release(l->env, l->radius);
+	ty_release(l->env, l->body);
 	ty_release(l->env, l->start);
 	ty_release(l->env, l->start_size);
 	ty_release(l->env, l->frozen);
@@ -550,26 +552,21 @@ free_ladder(ty_ladder *l)
 	ty_release(l->env, l->conflicts);
 }
 
-/* The box of the sites that are drawn, and the smallest and largest reach. TY_NOT_FINITE: of what no map is made. */
+/* Where the sites that are drawn begin, and with what room for rounding. TY_NOT_FINITE: of what no map is made. */
 static ty_status
-measure_sites(ty_ladder *l, ty_point *high, double *smallest)
+measure_sites(ty_ladder *l)
 {
 	double largest = 0, place = 0, rounding;
 
-	*smallest = INFINITY;
 	l->origin = (ty_point){INFINITY, INFINITY};
-	*high = (ty_point){-INFINITY, -INFINITY};
 	for (size_t i = 0; i < l->n; i++)
 	{
 		const ty_site *s = &l->sites[i];
-		double reach = half_diagonal(s->full);
 
 		if (s->state != TY_DRAWN)
 			continue;
-		*smallest = fmin(*smallest, reach);
-		largest = fmax(largest, reach);
+		largest = fmax(largest, half_diagonal(s->full));
 		l->origin = (ty_point){fmin(l->origin.x, s->home.x), fmin(l->origin.y, s->home.y)};
-		*high = (ty_point){fmax(high->x, s->home.x), fmax(high->y, s->home.y)};
 		place = fmax(place, fmax(fabs(s->home.x), fabs(s->home.y)));
 	}
 	rounding = ROUNDING_STEPS * DBL_EPSILON * (place + largest);
@@ -580,24 +577,21 @@ measure_sites(ty_ladder *l, ty_point *high, double *smallest)
 		l->line_gap = l->rules->line_gap * (1 + 1e-9) + rounding;
 		l->line_target = l->line_gap * (1 + SLACK);
 	}
-	*smallest += 1.5 * l->target;
 	return isfinite(4 * (place + largest + l->target)) ? TY_OK : TY_NOT_FINITE;
 }
 
 static ty_status
 enter_all(ty_ladder *l)
 {
-	ty_point high;
-	double smallest;
-	ty_status status = measure_sites(l, &high, &smallest);
+	ty_status status = measure_sites(l);
 
 	if (status == TY_OK)
-		status = ty_vicinity_begin(l->env, l->n, (ty_point){0, 0},
-								   (ty_point){high.x - l->origin.x, high.y - l->origin.y}, smallest, &l->near);
+		status = ty_vicinity_begin(l->env, l->n, &l->near);
 	for (size_t i = 0; status == TY_OK && i < l->n; i++)
 	{
 		l->start[i] = l->sites[i].moved;
 		l->start_size[i] = l->sites[i].size;
+		l->body[i].drawn = false;
 		if (l->sites[i].state == TY_DRAWN)
 			ty_enter_site(l, (uint32_t) i);
 	}

@@ -13,6 +13,14 @@ typedef struct ty_conflict
 	double lack;
 } ty_conflict;
 
+/* What of a site tells whether another is too near: no more than a cache line, since millions of pairs are looked at. */
+typedef struct ty_body
+{
+	ty_oblong box;
+	double radius; /* half its diagonal */
+	bool drawn, fixed;
+} ty_body;
+
 typedef struct ty_ladder
 {
 	const ty_environment *env;
@@ -25,8 +33,7 @@ typedef struct ty_ladder
 	double line_target; /* the same for lines; 0: there are none */
 	double line_gap;
 	bool *by_line;		/* [n] whether a line is in reach of the site */
-	ty_oblong *box;		/* [n] where each is now ... */
-	double *radius;		/* [n] ... and half its diagonal */
+	ty_body *body;		/* [n] where each is now */
 	ty_point *start;	/* [n] moved, as given */
 	double *start_size; /* [n] */
 	bool *frozen;		/* [n] is back at its start and stays there */
@@ -50,12 +57,22 @@ typedef struct ty_ladder
 static inline bool
 ty_is_drawn(const ty_ladder *l, uint32_t i)
 {
-	return l->sites[i].state == TY_DRAWN;
+	return l->body[i].drawn;
 }
 
 /* by how much a and b, two different sites, are nearer than target; 0 between two that both
  * stay in any case, and where one is gone */
-double ty_sites_lack(const ty_ladder *l, uint32_t a, uint32_t b, ty_point *away);
+static inline double
+ty_sites_lack(const ty_ladder *l, uint32_t a, uint32_t b, ty_point *away)
+{
+	const ty_body *p = &l->body[a], *q = &l->body[b];
+	double dx = q->box.x - p->box.x, dy = q->box.y - p->box.y, reach = p->radius + q->radius + l->target;
+
+	if (dx * dx + dy * dy > reach * reach || !p->drawn || !q->drawn || (p->fixed && q->fixed))
+		return 0;
+	return ty_lack(&p->box, &q->box, l->target, away);
+}
+
 /* whether that is a conflict, and not only less than was aimed at */
 static inline bool
 ty_is_conflict(const ty_ladder *l, double lack)
@@ -63,8 +80,10 @@ ty_is_conflict(const ty_ladder *l, double lack)
 	return lack > l->target - l->gap;
 }
 
-/* The box of a site anew, from its place and size. */
+/* The body of a site anew, from its place and size. */
 void ty_place_box(ty_ladder *l, uint32_t i);
+/* The same where its size is what it was. */
+void ty_move_box(ty_ladder *l, uint32_t i);
 /* The site enters the vicinity, or leaves it for good. */
 void ty_enter_site(ty_ladder *l, uint32_t i);
 void ty_hide_site(ty_ladder *l, uint32_t i);

@@ -10,7 +10,7 @@
 static void
 corners_of(const ty_ladder *l, uint32_t i, ty_point corners[4])
 {
-	const ty_oblong *b = &l->box[i];
+	const ty_oblong *b = &l->body[i].box;
 	ty_point along = {b->half_length * b->ux, b->half_length * b->uy};
 	ty_point across = {b->half_width * -b->uy, b->half_width * b->ux};
 	ty_point centre = {l->origin.x + b->x, l->origin.y + b->y};
@@ -37,7 +37,7 @@ bool
 ty_is_across(const ty_ladder *l, uint32_t i)
 {
 	const ty_site *s = &l->sites[i];
-	ty_point centre = {l->origin.x + l->box[i].x, l->origin.y + l->box[i].y};
+	ty_point centre = {l->origin.x + l->body[i].box.x, l->origin.y + l->body[i].box.y};
 
 	return l->by_line[i] && ty_barrier_lines_cross(l->rules->lines, s->home, centre);
 }
@@ -52,14 +52,14 @@ unit_vector(ty_point from, ty_point to, double length)
 static double
 lack_of_crossed(const ty_ladder *l, uint32_t i, ty_point *away)
 {
-	ty_point centre = {l->origin.x + l->box[i].x, l->origin.y + l->box[i].y};
-	double limit = l->radius[i] + l->line_target;
+	ty_point centre = {l->origin.x + l->body[i].box.x, l->origin.y + l->body[i].box.y};
+	double limit = l->body[i].radius + l->line_target;
 	ty_barrier_gap gap = ty_barrier_lines_gap(l->rules->lines, &centre, 1, limit);
 
-	*away = (ty_point){-l->box[i].uy, l->box[i].ux};
+	*away = (ty_point){-l->body[i].box.uy, l->body[i].box.ux};
 	if (gap.distance > 0 && gap.distance < limit)
 		*away = unit_vector(gap.line, gap.shape, gap.distance);
-	return ty_extent(&l->box[i], *away) + l->line_target - fmin(gap.distance, limit);
+	return ty_extent(&l->body[i].box, *away) + l->line_target - fmin(gap.distance, limit);
 }
 
 double
@@ -134,16 +134,14 @@ find_some(ty_ladder *l, uint32_t i)
 {
 	const ty_disc *disc = &l->near.discs[i];
 	double radius = 2 * disc->radius;
-	size_t all = 0, before = 0;
+	size_t before = 0;
 	ty_status status = TY_OK;
 
-	for (int level = 0; level < TY_VICINITY_LEVELS; level++)
-		all += l->near.level_count[level];
 	for (bool enough = false; status == TY_OK && !enough; radius *= 2)
 	{
 		status = ty_vicinity_find(&l->near, i, (ty_point){disc->x, disc->y}, radius);
 		before = l->near.found_count;
-		enough = before > ASKED || before + 1 >= all || !(radius < INFINITY);
+		enough = before > ASKED || before + 1 >= l->near.there || !(radius < INFINITY);
 	}
 	return status;
 }

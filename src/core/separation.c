@@ -44,35 +44,38 @@ beyond_sides(const ty_oblong *a, const ty_oblong *b, const relation *r, ty_point
 }
 
 /* how far x is outside of -half .. half, 0 inside */
-static double
+static inline double
 outside(double x, double half)
 {
-	if (x > half)
-		return x - half;
-	return x < -half ? x + half : 0;
+	double above = x - half > 0 ? x - half : 0, below = x + half < 0 ? x + half : 0;
+
+	return above + below;
 }
 
 /* The corner of b that is nearest to a, which does not overlap it: squared distance, and the way there from a. */
-static double
+static inline double
 nearest_corner(const ty_oblong *a, const ty_oblong *b, const relation *r, ty_point *way)
 {
-	double least = INFINITY, along = 0, across = 0;
+	double length_along = b->half_length * r->cosine, length_across = b->half_length * r->sine;
+	double width_along = b->half_width * r->sine, width_across = b->half_width * r->cosine;
+	double least = INFINITY, along[4], across[4];
+	int nearest = 0;
 
 	for (int corner = 0; corner < 4; corner++)
 	{
-		double length = corner & 1 ? b->half_length : -b->half_length;
-		double width = corner & 2 ? b->half_width : -b->half_width;
-		double dx = outside(r->along + length * r->cosine - width * r->sine, a->half_length);
-		double dy = outside(r->across + length * r->sine + width * r->cosine, a->half_width);
+		double length = corner & 1 ? 1 : -1, width = corner & 2 ? 1 : -1;
 
-		if (dx * dx + dy * dy < least)
-		{
-			least = dx * dx + dy * dy;
-			along = dx;
-			across = dy;
-		}
+		along[corner] = outside(r->along + length * length_along - width * width_along, a->half_length);
+		across[corner] = outside(r->across + length * length_across + width * width_across, a->half_width);
 	}
-	*way = in_the_plane(a, along, across);
+	for (int corner = 0; corner < 4; corner++)
+	{
+		double squared = along[corner] * along[corner] + across[corner] * across[corner];
+
+		nearest = squared < least ? corner : nearest;
+		least = squared < least ? squared : least;
+	}
+	*way = in_the_plane(a, along[nearest], across[nearest]);
 	return least;
 }
 
