@@ -23,6 +23,7 @@
 #define ROUNDS 8		  /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
 #define POOL_PER_SITE 32  /* numbers; a site in a town has 20 near it, of which 2 are in its way */
 #define NOT_CACHED UINT32_MAX
+#define SPARSE 64 /* of so many sites one in a conflict is few */
 
 /* ---- sites ---- */
 
@@ -306,9 +307,18 @@ lesser(const ty_ladder *l, uint32_t a, uint32_t b)
 	return s->weight < t->weight ? a : b;
 }
 
+/* What is done to the sites of conflicts in one go. */
+typedef enum touch
+{
+	UNTOUCHED = 0,
+	WAITING, /* in a conflict with one that is to be resolved: that may help */
+	CHOSEN,	 /* the conflict is to be resolved ... */
+	RESOLVED /* ... and has been */
+} touch;
+
 /* Joins the site to its nearest neighbour on its side of the lines or, if it has none there, across. */
 static ty_status
-join_nearest(ty_ladder *l, uint32_t i)
+join_nearest(ty_ladder *l, uint32_t i, uint8_t *touched)
 {
 	uint32_t nearest, kept;
 	bool across;
@@ -317,6 +327,7 @@ join_nearest(ty_ladder *l, uint32_t i)
 	if (status == TY_OK && nearest != TY_NO_SITE)
 	{
 		status = ty_join_sites(l, i, nearest, across ? nearest : TY_NO_SITE, &kept);
+		touched[kept] = RESOLVED;
 		ty_activate(l, kept);
 	}
 	else if (status == TY_OK)
@@ -326,7 +337,7 @@ join_nearest(ty_ladder *l, uint32_t i)
 
 /* A conflict of two sites, or of one with a line (a and b are the same). */
 static ty_status
-resolve(ty_ladder *l, uint32_t a, uint32_t b)
+resolve(ty_ladder *l, uint32_t a, uint32_t b, uint8_t *touched)
 {
 	uint32_t goes = a == b ? a : lesser(l, a, b);
 
@@ -348,38 +359,71 @@ resolve(ty_ladder *l, uint32_t a, uint32_t b)
 		ty_activate(l, goes);
 		return status;
 	}
-	return join_nearest(l, goes);
+	return join_nearest(l, goes, touched);
 }
 
-/* What is done to the sites of conflicts in one go. */
-typedef enum touch
-{
-	UNTOUCHED = 0,
-	WAITING, /* in a conflict with one that was resolved: that may have helped */
-	RESOLVED
-} touch;
-
+/*
+ * Of every neighbourhood the worst conflict, in the order of the first of its two sites: so what is resolved one after
+ * the other lies together. What is chosen and how many stand first in order.
+ */
 static ty_status
-resolve_in_order(ty_ladder *l, const uint32_t *order, uint8_t *touched)
+choose_worst(ty_ladder *l, uint32_t *order, uint8_t *touched, size_t *chosen)
 {
-	ty_status status = TY_OK;
+	uint64_t *keys = ty_allocate_array(l->env, l->conflict_count, sizeof *keys);
+	ty_status status = keys == NULL ? TY_NO_MEMORY : TY_OK;
 
+	*chosen = 0;
 	for (size_t k = 0; status == TY_OK && k < l->conflict_count; k++)
 	{
 		const ty_conflict *c = &l->conflicts[order[k]];
 
 		if (touched[c->a] == UNTOUCHED && touched[c->b] == UNTOUCHED)
 		{
-			if (ty_is_drawn(l, c->a) && ty_is_drawn(l, c->b))
-				status = resolve(l, c->a, c->b);
-			touched[c->a] = touched[c->b] = RESOLVED;
+			touched[c->a] = touched[c->b] = CHOSEN;
+			keys[*chosen] = c->a;
+			order[(*chosen)++] = order[k];
 		}
-		else if (touched[c->a] == RESOLVED && touched[c->b] == UNTOUCHED)
+		else if (touched[c->a] == CHOSEN && touched[c->b] == UNTOUCHED)
 			touched[c->b] = WAITING;
-		else if (touched[c->b] == RESOLVED && touched[c->a] == UNTOUCHED)
+		else if (touched[c->b] == CHOSEN && touched[c->a] == UNTOUCHED)
 			touched[c->a] = WAITING;
 	}
+	if (status == TY_OK)
+		status = ty_sort_keys(l->env, keys, order, *chosen);
+	ty_release(l->env, keys);
 	return status;
+}
+
+/* A site that was joined to the nearest in the meantime is another one by now. */
+static ty_status
+resolve_chosen(ty_ladder *l, const uint32_t *order, size_t chosen, uint8_t *touched)
+{
+	ty_status status = TY_OK;
+
+	for (size_t k = 0; status == TY_OK && k < chosen; k++)
+	{
+		const ty_conflict *c = &l->conflicts[order[k]];
+
+		if (ty_interrupted_at(l->env, k + 1))
+			return TY_INTERRUPTED;
+		if (touched[c->a] == RESOLVED || touched[c->b] == RESOLVED || !ty_is_drawn(l, c->a) || !ty_is_drawn(l, c->b))
+			continue;
+		touched[c->a] = touched[c->b] = RESOLVED;
+		status = resolve(l, c->a, c->b, touched);
+	}
+	return status;
+}
+
+/* Lists next in ascending order where that does not take longer than to look at those that stand in it. */
+static void
+sort_next(ty_ladder *l)
+{
+	if (l->next_count < l->n / SPARSE)
+		return;
+	l->next_count = 0;
+	for (size_t i = 0; i < l->n; i++)
+		if (l->listed[i])
+			l->next[l->next_count++] = (uint32_t) i;
 }
 
 /* Resolves the worst conflict of every neighbourhood. What is active next is everybody who is in a conflict. */
@@ -388,6 +432,7 @@ resolve_worst(ty_ladder *l, uint8_t *touched)
 {
 	uint32_t *order = ty_allocate_array(l->env, l->conflict_count, sizeof *order);
 	ty_status status = order == NULL ? TY_NO_MEMORY : sort_conflicts(l, order);
+	size_t chosen = 0;
 
 	l->next_count = 0;
 	for (size_t k = 0; k < l->conflict_count; k++)
@@ -398,12 +443,15 @@ resolve_worst(ty_ladder *l, uint8_t *touched)
 		l->degree[l->conflicts[k].b]++;
 	}
 	if (status == TY_OK)
-		status = resolve_in_order(l, order, touched);
-	for (size_t k = 0; k < l->conflict_count; k++)
+		status = choose_worst(l, order, touched, &chosen);
+	if (status == TY_OK)
+		status = resolve_chosen(l, order, chosen, touched);
+	for (size_t k = 0; k < l->next_count; k++)
 	{
-		touched[l->conflicts[k].a] = touched[l->conflicts[k].b] = UNTOUCHED;
-		l->degree[l->conflicts[k].a] = l->degree[l->conflicts[k].b] = 0;
+		touched[l->next[k]] = UNTOUCHED;
+		l->degree[l->next[k]] = 0;
 	}
+	sort_next(l);
 	ty_release(l->env, order);
 	return status;
 }
