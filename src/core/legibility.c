@@ -21,9 +21,9 @@
 #define SLACK 0.01		  /* of the gap: what is aimed at beyond it, so that pushing comes to an end */
 #define ROUNDING_STEPS 16 /* units in the last place of coordinates and sides: what drawing may round away */
 #define ROUNDS 8		  /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
-#define POOL_PER_SITE 32  /* numbers; a site in a town has 20 near it, of which 2 are in its way */
-#define NOT_CACHED UINT32_MAX
-#define SPARSE 64 /* of so many sites one in a conflict is few */
+#define NEAR_EACH 32	  /* sites that are kept in mind; one in a town has 20 near it, of which 2 are in its way */
+#define LINES_EACH 40	  /* segments that are kept in mind; in a town with all its ways there are 20 in reach */
+#define SPARSE 64		  /* of so many sites one in a conflict is few */
 
 /* ---- sites ---- */
 
@@ -96,14 +96,14 @@ reach_of(const ty_ladder *l, const ty_site *s)
 	return half_diagonal(s->full) + sqrt(s->shift.x * s->shift.x + s->shift.y * s->shift.y) + bound + 0.5 * l->target;
 }
 
-void
+ty_status
 ty_enter_site(ty_ladder *l, uint32_t i)
 {
 	const ty_site *s = &l->sites[i];
 
 	ty_place_box(l, i);
 	ty_vicinity_insert(&l->near, i, (ty_point){s->home.x - l->origin.x, s->home.y - l->origin.y}, reach_of(l, s));
-	l->by_line[i] = ty_line_in_reach(l, i);
+	return ty_meet_lines(l, i);
 }
 
 void
@@ -114,29 +114,6 @@ ty_hide_site(ty_ladder *l, uint32_t i)
 	ty_vicinity_remove(&l->near, i);
 }
 
-/*
- * Keeps what was found near the site: as long as no disc comes to touch its own, it stays true, for discs are about
- * homes and hold all that can be reached from there. A full pool is emptied. False: there is more than the pool holds.
- */
-static bool
-cache(ty_ladder *l, uint32_t i)
-{
-	size_t count = l->near.found_count;
-
-	if (l->pool_count + count + 1 > l->pool_capacity)
-	{
-		memset(l->cached, 0xff, l->n * sizeof *l->cached);
-		l->pool_count = 0;
-	}
-	if (count + 1 > l->pool_capacity)
-		return false;
-	l->cached[i] = (uint32_t) l->pool_count;
-	l->pool[l->pool_count] = (uint32_t) count;
-	memcpy(l->pool + l->pool_count + 1, l->near.found, count * sizeof *l->pool);
-	l->pool_count += count + 1;
-	return true;
-}
-
 /* What is known to be near others that the site may touch now is no longer all. */
 static ty_status
 forget_near(ty_ladder *l, uint32_t i)
@@ -144,12 +121,12 @@ forget_near(ty_ladder *l, uint32_t i)
 	const ty_disc *disc = &l->near.discs[i];
 	ty_status status;
 
-	if (l->pool_count == 0)
+	if (l->near_of.used == 0)
 		return TY_OK;
 	status = ty_vicinity_find(&l->near, i, (ty_point){disc->x, disc->y}, disc->radius);
-	l->cached[i] = NOT_CACHED;
+	ty_lists_forget(&l->near_of, i);
 	for (size_t m = 0; status == TY_OK && m < l->near.found_count; m++)
-		l->cached[l->near.found[m]] = NOT_CACHED;
+		ty_lists_forget(&l->near_of, l->near.found[m]);
 	return status;
 }
 
@@ -168,29 +145,32 @@ ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t in_place, uint32_t 
 	l->body[gone].drawn = false;
 	l->start[*kept] = (ty_point){0, 0};
 	l->start_size[*kept] = 2;
-	ty_enter_site(l, *kept);
+	if (status == TY_OK)
+		status = ty_enter_site(l, *kept);
 	return status == TY_OK ? forget_near(l, *kept) : status;
 }
 
+/*
+ * What was found is kept: as long as no disc comes to touch the site's own, it stays true, for discs are about homes
+ * and hold all that can be reached from there.
+ */
 ty_status
 ty_find_near(ty_ladder *l, uint32_t i)
 {
 	const ty_disc *disc = &l->near.discs[i];
-	ty_status status = TY_OK;
+	const uint32_t *list = ty_lists_get(&l->near_of, i);
 
-	if (l->cached[i] == NOT_CACHED)
+	if (list == NULL)
 	{
-		status = ty_vicinity_find(&l->near, i, (ty_point){disc->x, disc->y}, disc->radius);
-		if (status != TY_OK || !cache(l, i))
-		{
-			l->list = l->near.found;
-			l->list_count = l->near.found_count;
+		ty_status status = ty_vicinity_find(&l->near, i, (ty_point){disc->x, disc->y}, disc->radius);
+
+		if (status != TY_OK)
 			return status;
-		}
+		list = ty_lists_keep(&l->near_of, i, l->near.found, l->near.found_count);
 	}
-	l->list = l->pool + l->cached[i] + 1;
-	l->list_count = l->pool[l->cached[i]];
-	return TY_OK;
+	l->list = list == NULL ? l->near.found : list + 1;
+	l->list_count = list == NULL ? l->near.found_count : list[0];
+	return l->by_line[i] ? ty_recall_lines(l, i) : TY_OK;
 }
 
 void
@@ -225,9 +205,9 @@ note_conflict(ty_ladder *l, uint32_t a, uint32_t b, double lack)
 static ty_status
 collect_of_site(ty_ladder *l, uint32_t i)
 {
-	ty_point away;
-	double lack = ty_line_lack(l, i, &away);
 	ty_status status = ty_find_near(l, i);
+	ty_point away;
+	double lack = status == TY_OK ? ty_line_lack(l, i, &away) : 0;
 
 	if (status == TY_OK && (ty_is_line_conflict(l, lack) || ty_is_across(l, i)))
 		status = note_conflict(l, i, i, lack);
@@ -557,29 +537,28 @@ run(ty_ladder *l)
 static ty_status
 allocate_ladder(ty_ladder *l)
 {
+	ty_status status = ty_lists_begin(l->env, l->n, NEAR_EACH, &l->near_of);
+
+	if (status == TY_OK && l->rules->lines != NULL)
+		status = ty_lists_begin(l->env, l->n, LINES_EACH, &l->lines_of);
 	l->conflict_capacity = 256;
-	l->pool_capacity = l->n < UINT32_MAX / POOL_PER_SITE ? POOL_PER_SITE * l->n : UINT32_MAX - 1;
 	l->body = ty_allocate_array(l->env, l->n, sizeof *l->body);
 	l->start = ty_allocate_array(l->env, l->n, sizeof *l->start);
 	l->start_size = ty_allocate_array(l->env, l->n, sizeof *l->start_size);
 	l->frozen = ty_allocate_array(l->env, l->n, sizeof *l->frozen);
 	l->active = ty_allocate_array(l->env, l->n, sizeof *l->active);
-	l->cached = ty_allocate_array(l->env, l->n, sizeof *l->cached);
 	l->by_line = ty_allocate_array(l->env, l->n, sizeof *l->by_line);
-	l->pool = ty_allocate_array(l->env, l->pool_capacity, sizeof *l->pool);
 	l->next = ty_allocate_array(l->env, l->n, sizeof *l->next);
 	l->listed = ty_allocate_array(l->env, l->n, sizeof *l->listed);
 	l->degree = ty_allocate_array(l->env, l->n, sizeof *l->degree);
 	l->conflicts = ty_allocate_array(l->env, l->conflict_capacity, sizeof *l->conflicts);
 	if (l->body == NULL || l->start == NULL || l->start_size == NULL || l->frozen == NULL || l->active == NULL ||
-		l->next == NULL || l->cached == NULL || l->by_line == NULL || l->pool == NULL || l->listed == NULL ||
-		l->degree == NULL || l->conflicts == NULL)
+		l->next == NULL || l->by_line == NULL || l->listed == NULL || l->degree == NULL || l->conflicts == NULL)
 		return TY_NO_MEMORY;
-	memset(l->cached, 0xff, l->n * sizeof *l->cached);
 	memset(l->frozen, 0, l->n * sizeof *l->frozen);
 	memset(l->degree, 0, l->n * sizeof *l->degree);
 	memset(l->listed, 0, l->n * sizeof *l->listed);
-	return TY_OK;
+	return status;
 }
 
 static void
@@ -591,9 +570,10 @@ free_ladder(ty_ladder *l)
 	ty_release(l->env, l->start_size);
 	ty_release(l->env, l->frozen);
 	ty_release(l->env, l->active);
-	ty_release(l->env, l->cached);
 	ty_release(l->env, l->by_line);
-	ty_release(l->env, l->pool);
+	ty_lists_free(&l->near_of);
+	ty_lists_free(&l->lines_of);
+	ty_release(l->env, l->segments.number);
 	ty_release(l->env, l->next);
 	ty_release(l->env, l->listed);
 	ty_release(l->env, l->degree);
@@ -641,7 +621,7 @@ enter_all(ty_ladder *l)
 		l->start_size[i] = l->sites[i].size;
 		l->body[i].drawn = false;
 		if (l->sites[i].state == TY_DRAWN)
-			ty_enter_site(l, (uint32_t) i);
+			status = ty_enter_site(l, (uint32_t) i);
 	}
 	return status;
 }

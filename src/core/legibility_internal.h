@@ -3,6 +3,7 @@
 #define TY_LEGIBILITY_INTERNAL_H
 
 #include "legibility.h"
+#include "lists.h"
 #include "separation.h"
 #include "vicinity.h"
 
@@ -32,17 +33,19 @@ typedef struct ty_ladder
 	double target;		/* that is made, a bit more, so that it is reached in finite time */
 	double line_target; /* the same for lines; 0: there are none */
 	double line_gap;
-	bool *by_line;		/* [n] whether a line is in reach of the site */
-	ty_body *body;		/* [n] where each is now */
-	ty_point *start;	/* [n] moved, as given */
-	double *start_size; /* [n] */
-	bool *frozen;		/* [n] is back at its start and stays there */
-	ty_vicinity near;	/* homes, with all that can be reached from there */
-	uint32_t *cached;	/* [n] where in pool the list of those near the site stands: how many, then who */
-	uint32_t *pool;		/* [pool_count] */
-	size_t pool_count, pool_capacity;
+	bool *by_line;		  /* [n] whether a line is in reach of the site */
+	ty_body *body;		  /* [n] where each is now */
+	ty_point *start;	  /* [n] moved, as given */
+	double *start_size;	  /* [n] */
+	bool *frozen;		  /* [n] is back at its start and stays there */
+	ty_vicinity near;	  /* homes, with all that can be reached from there */
+	ty_lists near_of;	  /* by site: who stands near, if that is known */
+	ty_lists lines_of;	  /* by site: which segments of lines are in reach (barrier.h), if that is known */
+	ty_segments segments; /* those last found */
 	const uint32_t *list; /* [list_count] what ty_find_near found; some may be gone by now */
 	size_t list_count;
+	const uint32_t *line_list; /* [line_count] segments in reach of the same site, where it is by_line */
+	size_t line_count;
 	uint32_t *active; /* [active_count] sites that may be in a conflict: at least one of the two of each */
 	uint32_t *next;	  /* those of the next round */
 	size_t active_count, next_count;
@@ -85,7 +88,7 @@ void ty_place_box(ty_ladder *l, uint32_t i);
 /* The same where its size is what it was. */
 void ty_move_box(ty_ladder *l, uint32_t i);
 /* The site enters the vicinity, or leaves it for good. */
-void ty_enter_site(ty_ladder *l, uint32_t i);
+ty_status ty_enter_site(ty_ladder *l, uint32_t i);
 void ty_hide_site(ty_ladder *l, uint32_t i);
 /* Joins two sites; which of the numbers goes on. in_place: as for the rules' join. */
 ty_status ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t in_place, uint32_t *kept);
@@ -97,13 +100,14 @@ bool ty_may_join(const ty_ladder *l, uint32_t a, uint32_t b);
  */
 double ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away);
 bool ty_is_line_conflict(const ty_ladder *l, double lack);
-/* Whether a line is in reach. */
-bool ty_line_in_reach(const ty_ladder *l, uint32_t i);
+/* Finds out which lines are in reach of the site; lists them again in l->line_list. */
+ty_status ty_meet_lines(ty_ladder *l, uint32_t i);
+ty_status ty_recall_lines(ty_ladder *l, uint32_t i);
 /* Whether the site has come to lie on the other side of a line. */
 bool ty_is_across(const ty_ladder *l, uint32_t i);
 /* The nearest that is drawn: of those that it may be joined to or, if there is none near, of all. */
 ty_status ty_nearest_site(ty_ladder *l, uint32_t i, uint32_t *nearest, bool *across);
-/* Lists in l->list who may touch the site, wherever both may go. */
+/* Lists in l->list who may touch the site, wherever both may go, and in l->line_list the lines. Then, of this site: */
 ty_status ty_find_near(ty_ladder *l, uint32_t i);
 /* What was listed by ty_activate becomes active. */
 void ty_next_round(ty_ladder *l);

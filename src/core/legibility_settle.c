@@ -176,7 +176,8 @@ settle_site(ty_ladder *l, uint32_t i, bool below)
 {
 	ty_status status = ty_find_near(l, i);
 
-	settle_by_line(l, i, below);
+	if (status == TY_OK)
+		settle_by_line(l, i, below);
 	/* the last first: a sweep goes up, so that those pushed ahead are still to come; it saves 0.3 % of the sites */
 	for (size_t m = l->list_count; status == TY_OK && m-- > 0;)
 	{
