@@ -241,6 +241,7 @@ bool
 ty_barrier_segments_cross(const ty_barrier_lines *lines, const uint32_t *segment, size_t count, ty_point a, ty_point b)
 {
 	path p = {.lines = lines, .a = a, .b = b};
+	ty_point low = {fmin(a.x, b.x), fmin(a.y, b.y)}, high = {fmax(a.x, b.x), fmax(a.y, b.y)};
 
 	if (a.x == b.x && a.y == b.y)
 		return false;
@@ -249,6 +250,9 @@ ty_barrier_segments_cross(const ty_barrier_lines *lines, const uint32_t *segment
 		ty_point from, to;
 
 		ty_segment_ends(lines, segment[i], &from, &to);
+		if ((from.x > high.x && to.x > high.x) || (from.x < low.x && to.x < low.x) ||
+			(from.y > high.y && to.y > high.y) || (from.y < low.y && to.y < low.y))
+			continue;
 		if (lies_on_path(&p, from, to))
 			return true;
 	}

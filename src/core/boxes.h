@@ -30,6 +30,9 @@ typedef struct ty_boxes
 /* The smallest box of floats that holds these two corners, which may be infinite but not NaN. */
 ty_box ty_box_of(double low_x, double low_y, double high_x, double high_y);
 
+/* The box grows to hold another. */
+void ty_box_enlarge(ty_box *box, const ty_box *by);
+
 /* Room for the boxes of so many things; the caller fills in box[0 .. count), then calls ty_boxes_raise. */
 ty_status ty_boxes_begin(const ty_environment *env, size_t count, ty_boxes *boxes);
 /* Builds the levels above the things. */

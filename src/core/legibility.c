@@ -157,12 +157,11 @@ ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t in_place, uint32_t 
 ty_status
 ty_find_near(ty_ladder *l, uint32_t i)
 {
-	const ty_disc *disc = &l->near.discs[i];
 	const uint32_t *list = ty_lists_get(&l->near_of, i);
 
 	if (list == NULL)
 	{
-		ty_status status = ty_vicinity_find(&l->near, i, (ty_point){disc->x, disc->y}, disc->radius);
+		ty_status status = ty_vicinity_find_touching(&l->near, i);
 
 		if (status != TY_OK)
 			return status;
@@ -478,6 +477,7 @@ climb(ty_ladder *l, uint8_t *touched)
 		if (status != TY_OK || l->conflict_count == 0)
 			break;
 		status = resolve_worst(l, touched);
+		ty_vicinity_fit(&l->near);
 		ty_next_round(l);
 	}
 	return status;

@@ -56,7 +56,9 @@ ty_is_across(const ty_ladder *l, uint32_t i)
 	const ty_site *s = &l->sites[i];
 	ty_point centre = {l->origin.x + l->body[i].box.x, l->origin.y + l->body[i].box.y};
 
-	return l->by_line[i] && ty_barrier_segments_cross(l->rules->lines, l->line_list, l->line_count, s->home, centre);
+	if (!l->by_line[i] || (s->moved.x == 0 && s->moved.y == 0 && s->shift.x == 0 && s->shift.y == 0))
+		return false;
+	return ty_barrier_segments_cross(l->rules->lines, l->line_list, l->line_count, s->home, centre);
 }
 
 /* ---- how near a line comes ---- */
@@ -116,24 +118,30 @@ look_at_segment(const ty_oblong *box, ty_point p, ty_point q, clearance *c)
 		note_way(c, corner.x - (p.x + along / squared * dx), corner.y - (p.y + along / squared * dy));
 }
 
-/* How near a line comes to the box, or limit; *away: in which direction it would have to go. */
+/* Whether the segment from a to b is farther than reach from the place, as far as boxes tell. */
+static inline bool
+surely_beyond(ty_point place, double reach, ty_point a, ty_point b)
+{
+	return (a.x > place.x + reach && b.x > place.x + reach) || (a.x < place.x - reach && b.x < place.x - reach) ||
+		   (a.y > place.y + reach && b.y > place.y + reach) || (a.y < place.y - reach && b.y < place.y - reach);
+}
+
+/* How near a line comes to the box, or limit; *away: in which direction it would have to go. radius: half its diagonal. */
 static double
-line_distance(const ty_ladder *l, const ty_oblong *box, double limit, ty_point *away)
+line_distance(const ty_ladder *l, const ty_oblong *box, double radius, double limit, ty_point *away)
 {
 	ty_point centre = {l->origin.x + box->x, l->origin.y + box->y};
 	clearance c = {limit * limit, {0, 0}};
-	double distance, beyond_length = box->half_length + limit, beyond_width = box->half_width + limit;
+	double distance, reach = (radius + limit) * (1 + 1e-6);
 
 	for (size_t k = 0; k < l->line_count && c.squared > 0; k++)
 	{
-		ty_point a, b, p, q;
+		ty_point a, b;
 
 		ty_segment_ends(l->rules->lines, l->line_list[k], &a, &b);
-		p = into_frame(box, a.x - centre.x, a.y - centre.y);
-		q = into_frame(box, b.x - centre.x, b.y - centre.y);
-		if (fmin(p.x, q.x) < beyond_length && fmax(p.x, q.x) > -beyond_length && fmin(p.y, q.y) < beyond_width &&
-			fmax(p.y, q.y) > -beyond_width)
-			look_at_segment(box, p, q, &c);
+		if (!surely_beyond(centre, reach, a, b))
+			look_at_segment(box, into_frame(box, a.x - centre.x, a.y - centre.y),
+							into_frame(box, b.x - centre.x, b.y - centre.y), &c);
 	}
 	distance = sqrt(c.squared);
 	if (!(distance < limit))
@@ -152,7 +160,8 @@ lack_of_crossed(const ty_ladder *l, uint32_t i, ty_point *away)
 	ty_oblong centre = {box->x, box->y, box->ux, box->uy, 0, 0};
 
 	*away = (ty_point){-box->uy, box->ux};
-	return ty_extent(box, *away) + l->line_target - line_distance(l, &centre, l->body[i].radius + l->line_target, away);
+	return ty_extent(box, *away) + l->line_target -
+		   line_distance(l, &centre, 0, l->body[i].radius + l->line_target, away);
 }
 
 double
@@ -162,7 +171,7 @@ ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away)
 
 	if (!l->by_line[i])
 		return 0;
-	distance = line_distance(l, &l->body[i].box, l->line_target, away);
+	distance = line_distance(l, &l->body[i].box, l->body[i].radius, l->line_target, away);
 	if (distance > 0)
 		return l->line_target - distance;
 	return fmax(lack_of_crossed(l, i, away), l->line_target);
@@ -216,6 +225,14 @@ next_nearest(const ty_ladder *l, uint32_t i, double beyond, uint32_t after)
 	return best;
 }
 
+/* Whether one of the lines in reach lies between: mostly it is one of these, and they are at hand. */
+static bool
+is_behind_near_line(const ty_ladder *l, uint32_t i, uint32_t j)
+{
+	return l->by_line[i] &&
+		   ty_barrier_segments_cross(l->rules->lines, l->line_list, l->line_count, l->sites[i].home, l->sites[j].home);
+}
+
 /* The nearest that it may be joined to, of the ASKED nearest; if there is none, the very nearest. */
 ty_status
 ty_nearest_site(ty_ladder *l, uint32_t i, uint32_t *nearest, bool *across)
@@ -227,6 +244,8 @@ ty_nearest_site(ty_ladder *l, uint32_t i, uint32_t *nearest, bool *across)
 
 	*nearest = TY_NO_SITE;
 	*across = true;
+	if (l->by_line[i] && ty_recall_lines(l, i) != TY_OK)
+		return TY_NO_MEMORY;
 	for (bool all = false; !all; radius *= 2)
 	{
 		ty_status status = ty_vicinity_find(&l->near, i, (ty_point){disc->x, disc->y}, radius);
@@ -242,7 +261,7 @@ ty_nearest_site(ty_ladder *l, uint32_t i, uint32_t *nearest, bool *across)
 			j = next;
 			at = squared_distance(l, i, j);
 			*nearest = *nearest == TY_NO_SITE ? j : *nearest;
-			*across = !ty_may_join(l, i, j);
+			*across = is_behind_near_line(l, i, j) || !ty_may_join(l, i, j);
 			if (!*across)
 				*nearest = j;
 			if (!*across || ++asked == ASKED)

@@ -221,22 +221,33 @@ ty_settle(ty_ladder *l, int rounds, bool below)
 #define RELENT_PASSES 2 /* one may be in the other's way home */
 #define RELENT_STEPS 4	/* of halving the way */
 
-/* Whether the site, as it is now, is in a conflict with one of those that were found near it. */
 static bool
-has_room(const ty_ladder *l, uint32_t i)
+is_in_the_way(const ty_ladder *l, uint32_t i, uint32_t j)
+{
+	ty_point n;
+
+	return ty_is_conflict(l, ty_sites_lack(l, i < j ? i : j, i < j ? j : i, &n));
+}
+
+/*
+ * Whether the site, as it is now, is in no conflict with one of those that were found near it. *obstacle: who was in the
+ * way the last time, and so is asked first; TY_NO_SITE: nobody was.
+ */
+static bool
+has_room(const ty_ladder *l, uint32_t i, uint32_t *obstacle)
 {
 	ty_point way;
 
+	if (*obstacle != TY_NO_SITE && is_in_the_way(l, i, *obstacle))
+		return false;
 	if (ty_is_line_conflict(l, ty_line_lack(l, i, &way)) || ty_is_across(l, i))
 		return false;
 	for (size_t m = 0; m < l->list_count; m++)
-	{
-		uint32_t j = l->list[m];
-		ty_point n;
-
-		if (ty_is_conflict(l, ty_sites_lack(l, i < j ? i : j, i < j ? j : i, &n)))
+		if (is_in_the_way(l, i, l->list[m]))
+		{
+			*obstacle = l->list[m];
 			return false;
-	}
+		}
 	return true;
 }
 
@@ -255,11 +266,12 @@ go_home(ty_ladder *l, uint32_t i)
 {
 	ty_point moved = l->sites[i].moved;
 	double size = l->sites[i].size, share = 0;
+	uint32_t obstacle = TY_NO_SITE;
 
 	for (int step = 0; step < RELENT_STEPS; step++)
 	{
 		set_site(l, i, (ty_point){share * moved.x, share * moved.y}, size);
-		if (has_room(l, i))
+		if (has_room(l, i, &obstacle))
 			return;
 		share = 0.5 * (share + 1);
 	}
@@ -272,11 +284,12 @@ grow_again(ty_ladder *l, uint32_t i)
 {
 	ty_point moved = l->sites[i].moved;
 	double size = l->sites[i].size, high = 2;
+	uint32_t obstacle = TY_NO_SITE;
 
 	for (int step = 0; step < RELENT_STEPS; step++)
 	{
 		set_site(l, i, moved, high);
-		if (has_room(l, i))
+		if (has_room(l, i, &obstacle))
 			return;
 		high = 0.5 * (size + high);
 	}
