@@ -20,10 +20,15 @@
 
 #define SLACK 0.01		  /* of the gap: what is aimed at beyond it, so that pushing comes to an end */
 #define ROUNDING_STEPS 16 /* units in the last place of coordinates and sides: what drawing may round away */
-#define ROUNDS 8		  /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
-#define NEAR_EACH 32	  /* sites that are kept in mind; one in a town has 20 near it, of which 2 are in its way */
-#define LINES_EACH 40	  /* segments that are kept in mind; in a town with all its ways there are 20 in reach */
-#define SPARSE 64		  /* of so many sites one in a conflict is few */
+/*
+ * Before the first sites are joined pushing helps little where many crowd, and all of them take part; later there are few
+ * left, so that one can be patient. So 1 to 3 % more sites are left at small scales, for a little less time.
+ */
+#define AT_FIRST ((ty_patience){.rounds = 8, .stagnant = 0.96})
+#define LATER ((ty_patience){.rounds = 16, .stagnant = 0.99})
+#define NEAR_EACH 32  /* sites that are kept in mind; one in a town has 20 near it, of which 2 are in its way */
+#define LINES_EACH 40 /* segments that are kept in mind; in a town with all its ways there are 20 in reach */
+#define SPARSE 64	  /* of so many sites one in a conflict is few */
 
 /* ---- sites ---- */
 
@@ -70,7 +75,8 @@ ty_place_box(ty_ladder *l, uint32_t i)
 					 0.5 * sides.length,
 					 0.5 * sides.width};
 
-	l->body[i] = (ty_body){box, half_diagonal(sides), s->state == TY_DRAWN, s->fixed};
+	l->body[i] =
+		(ty_body){box, half_diagonal(sides), s->state == TY_DRAWN, s->fixed, (uint8_t) (s->size > 1 ? 2 : s->size > 0)};
 }
 
 void
@@ -467,11 +473,11 @@ climb(ty_ladder *l, uint8_t *touched)
 {
 	ty_status status = TY_OK;
 
-	while (status == TY_OK && l->active_count > 0)
+	for (ty_patience patience = AT_FIRST; status == TY_OK && l->active_count > 0; patience = LATER)
 	{
-		status = ty_settle(l, ROUNDS, false);
+		status = ty_settle(l, patience, false);
 		if (status == TY_OK)
-			status = ty_settle(l, ROUNDS, true);
+			status = ty_settle(l, patience, true);
 		if (status == TY_OK)
 			status = collect_conflicts(l);
 		if (status != TY_OK || l->conflict_count == 0)
@@ -542,7 +548,7 @@ allocate_ladder(ty_ladder *l)
 	if (status == TY_OK && l->rules->lines != NULL)
 		status = ty_lists_begin(l->env, l->n, LINES_EACH, &l->lines_of);
 	l->conflict_capacity = 256;
-	l->body = ty_allocate_array(l->env, l->n, sizeof *l->body);
+	l->body_memory = ty_allocate_array(l->env, l->n + 1, sizeof *l->body);
 	l->start = ty_allocate_array(l->env, l->n, sizeof *l->start);
 	l->start_size = ty_allocate_array(l->env, l->n, sizeof *l->start_size);
 	l->frozen = ty_allocate_array(l->env, l->n, sizeof *l->frozen);
@@ -552,9 +558,10 @@ allocate_ladder(ty_ladder *l)
 	l->listed = ty_allocate_array(l->env, l->n, sizeof *l->listed);
 	l->degree = ty_allocate_array(l->env, l->n, sizeof *l->degree);
 	l->conflicts = ty_allocate_array(l->env, l->conflict_capacity, sizeof *l->conflicts);
-	if (l->body == NULL || l->start == NULL || l->start_size == NULL || l->frozen == NULL || l->active == NULL ||
+	if (l->body_memory == NULL || l->start == NULL || l->start_size == NULL || l->frozen == NULL || l->active == NULL ||
 		l->next == NULL || l->by_line == NULL || l->listed == NULL || l->degree == NULL || l->conflicts == NULL)
 		return TY_NO_MEMORY;
+	l->body = (ty_body *) (((uintptr_t) l->body_memory + sizeof *l->body - 1) / sizeof *l->body * sizeof *l->body);
 	memset(l->frozen, 0, l->n * sizeof *l->frozen);
 	memset(l->degree, 0, l->n * sizeof *l->degree);
 	memset(l->listed, 0, l->n * sizeof *l->listed);
@@ -565,7 +572,7 @@ static void
 free_ladder(ty_ladder *l)
 {
 	ty_vicinity_free(&l->near);
-	ty_release(l->env, l->body);
+	ty_release(l->env, l->body_memory);
 	ty_release(l->env, l->start);
 	ty_release(l->env, l->start_size);
 	ty_release(l->env, l->frozen);

@@ -20,6 +20,7 @@ typedef struct ty_body
 	ty_oblong box;
 	double radius; /* half its diagonal */
 	bool drawn, fixed;
+	uint8_t stages; /* of shrinking that are left: 2 above its own size, 1 above the least, 0 */
 } ty_body;
 
 typedef struct ty_ladder
@@ -34,7 +35,8 @@ typedef struct ty_ladder
 	double line_target; /* the same for lines; 0: there are none */
 	double line_gap;
 	bool *by_line;		  /* [n] whether a line is in reach of the site */
-	ty_body *body;		  /* [n] where each is now */
+	ty_body *body;		  /* [n] where each is now: cache lines of ... */
+	void *body_memory;	  /* ... this, which begins a little before */
 	ty_point *start;	  /* [n] moved, as given */
 	double *start_size;	  /* [n] */
 	bool *frozen;		  /* [n] is back at its start and stays there */
@@ -116,8 +118,15 @@ void ty_activate(ty_ladder *l, uint32_t i);
 
 /* legibility_thin.c: joins or hides where so many sites crowd that nothing else can help. */
 ty_status ty_thin_out(ty_ladder *l);
+/* How long it is tried to settle all conflicts. */
+typedef struct ty_patience
+{
+	int rounds;
+	double stagnant; /* share of what was lacking a round before, above which another round is not worth its time */
+} ty_patience;
+
 /* legibility_settle.c: rounds of shrinking and displacing; below: also below true size. */
-ty_status ty_settle(ty_ladder *l, int rounds, bool below);
+ty_status ty_settle(ty_ladder *l, ty_patience patience, bool below);
 /* legibility_settle.c: takes back what was not needed. */
 ty_status ty_relent(ty_ladder *l);
 

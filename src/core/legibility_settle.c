@@ -16,13 +16,13 @@
 
 /* how many times larger than at the floor, 1 for own and 0 for least, the site is now */
 static inline double
-growth(const ty_ladder *l, uint32_t i, double floor_size)
+growth(const ty_ladder *l, uint32_t i, int floor_size)
 {
 	const ty_site *s = &l->sites[i];
 	const ty_sides *least = floor_size >= 1 ? &s->own : &s->least;
 	ty_sides now;
 
-	if (s->fixed || !(s->size > floor_size))
+	if (l->body[i].fixed || l->body[i].stages <= floor_size)
 		return 0;
 	now = ty_site_sides(s);
 	return now.width * now.length / (least->width * least->length);
@@ -30,7 +30,7 @@ growth(const ty_ladder *l, uint32_t i, double floor_size)
 
 /* The size below which a site that was moved would stand too far from home for its longer side. */
 static double
-least_size(const ty_ladder *l, const ty_site *s, double floor_size)
+least_size(const ty_ladder *l, const ty_site *s, int floor_size)
 {
 	double moved = sqrt(s->moved.x * s->moved.x + s->moved.y * s->moved.y);
 	ty_sides high = floor_size >= 1 ? s->full : s->own, low = floor_size >= 1 ? s->own : s->least;
@@ -43,7 +43,7 @@ least_size(const ty_ladder *l, const ty_site *s, double floor_size)
 
 /* by how much less the site takes up along n at the floor than one stage above it */
 static double
-span_of_stage(const ty_ladder *l, uint32_t i, ty_point n, double floor_size)
+span_of_stage(const ty_ladder *l, uint32_t i, ty_point n, int floor_size)
 {
 	const ty_site *s = &l->sites[i];
 	ty_sides high = floor_size >= 1 ? s->full : s->own, low = floor_size >= 1 ? s->own : s->least;
@@ -56,12 +56,12 @@ span_of_stage(const ty_ladder *l, uint32_t i, ty_point n, double floor_size)
 
 /* Shrinks the site by what is lacking along n, in one step, and not below the floor. Whether it became smaller. */
 static bool
-shrink(ty_ladder *l, uint32_t i, double lack, ty_point n, double floor_size)
+shrink(ty_ladder *l, uint32_t i, double lack, ty_point n, int floor_size)
 {
 	ty_site *s = &l->sites[i];
 	double size = s->size, least, span;
 
-	if (!(size > floor_size))
+	if (l->body[i].stages <= floor_size)
 		return false;
 	least = least_size(l, s, floor_size);
 	span = span_of_stage(l, i, n, floor_size);
@@ -74,7 +74,7 @@ shrink(ty_ladder *l, uint32_t i, double lack, ty_point n, double floor_size)
 
 /* Shrinks two sites as far as needed and as the floor allows, the one that has grown more first. What still lacks. */
 static double
-shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, double floor_size)
+shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, int floor_size)
 {
 	for (int step = 0; step < SHRINK_STEPS && lack > 0; step++)
 	{
@@ -91,8 +91,6 @@ shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, doub
 }
 
 /* ---- displacing ---- */
-
-#define STAGNANT 0.97 /* share of what was lacking a round before, above which another round is not worth its time */
 
 /* Moves the site, within its bound. How far it came along n. */
 static double
@@ -192,12 +190,12 @@ settle_site(ty_ladder *l, uint32_t i, bool below)
 }
 
 ty_status
-ty_settle(ty_ladder *l, int rounds, bool below)
+ty_settle(ty_ladder *l, ty_patience patience, bool below)
 {
 	ty_status status = TY_OK;
 	double before = INFINITY;
 
-	for (int round = 0; status == TY_OK && round < rounds && l->active_count > 0; round++)
+	for (int round = 0; status == TY_OK && round < patience.rounds && l->active_count > 0; round++)
 	{
 		l->lacking = 0;
 		for (size_t k = 0; status == TY_OK && k < l->active_count; k++)
@@ -209,7 +207,7 @@ ty_settle(ty_ladder *l, int rounds, bool below)
 				status = settle_site(l, i, below);
 		}
 		ty_next_round(l);
-		if (l->lacking > STAGNANT * before)
+		if (l->lacking > patience.stagnant * before)
 			break;
 		before = l->lacking;
 	}
