@@ -172,6 +172,23 @@ typify_settle_transition(PG_FUNCTION_ARGS)
 
 /* --- results --- */
 
+void
+ty_warn_of_collisions(const ty_collisions *collisions, int64 a, int64 b, int64 beside)
+{
+	if (collisions->pairs > 0)
+		ereport(WARNING,
+				errmsg_plural("%zu pair of kept buildings is nearer to each other than min_gap",
+							  "%zu pairs of kept buildings are nearer to each other than min_gap", collisions->pairs,
+							  collisions->pairs),
+				errdetail("The first are %lld and %lld.", (long long) a, (long long) b));
+	if (collisions->beside_lines > 0)
+		ereport(WARNING,
+				errmsg_plural("%zu kept building is nearer to a barrier than its symbol and min_gap allow",
+							  "%zu kept buildings are nearer to a barrier than its symbol and min_gap allow",
+							  collisions->beside_lines, collisions->beside_lines),
+				errdetail("The first is %lld.", (long long) beside));
+}
+
 /* The order in which sites are settled: that of buildings at their homes, with their ids. */
 static uint32_t *
 settling_order(const layer *l)
@@ -194,10 +211,20 @@ settling_order(const layer *l)
 	return order;
 }
 
-static ty_site *
-settled_sites(const layer *l, const uint32_t *order)
+static void
+collide(void *context, uint32_t a, uint32_t b)
 {
-	ty_legibility rules = {.gap = l->gap, .lines = ty_lines_of_barriers(l->set), .line_gap = l->line_gap};
+	ty_note_collision(context, a, b);
+}
+
+static ty_site *
+settled_sites(const layer *l, const uint32_t *order, ty_collisions *collisions)
+{
+	ty_legibility rules = {.gap = l->gap,
+						   .lines = ty_lines_of_barriers(l->set),
+						   .line_gap = l->line_gap,
+						   .collide = collide,
+						   .context = collisions};
 	ty_site *sites = ty_allocate_array(&ty_backend_environment, l->count, sizeof *sites);
 
 	for (size_t i = 0; i < l->count; i++)
@@ -275,14 +302,17 @@ typify_settle_final(PG_FUNCTION_ARGS)
 	uint32_t *order;
 	ty_site *sites;
 	size_t hidden;
+	ty_collisions collisions = {0};
 	Datum array;
 
 	layer_context(fcinfo);
 	if (l == NULL || l->count == 0 || !(l->gap > 0))
 		PG_RETURN_NULL();
 	order = settling_order(l);
-	sites = settled_sites(l, order);
+	sites = settled_sites(l, order, &collisions);
 	array = settled_array(fcinfo, l, order, sites, &hidden);
+	ty_warn_of_collisions(&collisions, l->rows[order[collisions.first_pair[0]]].id,
+						  l->rows[order[collisions.first_pair[1]]].id, l->rows[order[collisions.first_beside]].id);
 	pfree(order);
 	pfree(sites);
 	if (hidden > 0)

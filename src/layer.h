@@ -37,4 +37,7 @@ enum
 extern void ty_site_to_numbers(const ty_site *site, bool outlined, const ty_parameters *p,
 							   double numbers[SITE_NUMBERS]);
 
+/* Kept buildings that are too near to each other, the first two by their ids, or to a barrier, the first by its id. */
+extern void ty_warn_of_collisions(const ty_collisions *collisions, int64 a, int64 b, int64 beside);
+
 #endif

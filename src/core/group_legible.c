@@ -213,12 +213,9 @@ static void
 collide(void *context, uint32_t a, uint32_t b)
 {
 	joining *j = context;
-	ty_result *result = j->result;
 
-	if (result->collisions++ > 0)
-		return;
-	result->colliding[0] = result->placeholders[a].representative;
-	result->colliding[1] = result->placeholders[b].representative;
+	ty_note_collision(&j->result->collisions, j->result->placeholders[a].representative,
+					  j->result->placeholders[b].representative);
 }
 
 /* Numbers those that are left, and labels and lists the members anew. */

@@ -20,7 +20,7 @@
 
 #define SLACK 0.01		  /* of the gap: what is aimed at beyond it, so that pushing comes to an end */
 #define ROUNDING_STEPS 16 /* units in the last place of coordinates and sides: what drawing may round away */
-#define ROUNDS 8 /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
+#define ROUNDS 8		  /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
 #define POOL_PER_SITE 32  /* numbers; a site in a town has 20 near it, of which 2 are in its way */
 #define NOT_CACHED UINT32_MAX
 
@@ -451,7 +451,7 @@ climb(ty_ladder *l, uint8_t *touched)
 	return status;
 }
 
-/* Tells of fixed sites that are too near to each other. */
+/* Tells of fixed sites that are too near to each other, or to a line. */
 static ty_status
 tell_collisions(ty_ladder *l)
 {
@@ -461,6 +461,8 @@ tell_collisions(ty_ladder *l)
 	{
 		if (!ty_is_drawn(l, i) || !l->sites[i].fixed)
 			continue;
+		if (ty_fixed_by_line(l, i))
+			l->rules->collide(l->rules->context, i, i);
 		status = ty_find_near(l, i);
 		for (size_t m = 0; status == TY_OK && m < l->list_count; m++)
 		{
@@ -498,6 +500,21 @@ run(ty_ladder *l)
 	}
 	ty_release(l->env, touched);
 	return status;
+}
+
+void
+ty_note_collision(ty_collisions *collisions, uint32_t a, uint32_t b)
+{
+	if (a == b)
+	{
+		if (collisions->beside_lines++ == 0)
+			collisions->first_beside = a;
+	}
+	else if (collisions->pairs++ == 0)
+	{
+		collisions->first_pair[0] = a;
+		collisions->first_pair[1] = b;
+	}
 }
 
 /* ---- set-up ---- */

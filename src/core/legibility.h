@@ -54,10 +54,23 @@ typedef struct ty_legibility
 	 * came.
 	 */
 	ty_status (*join)(void *context, uint32_t kept, uint32_t gone, uint32_t in_place, ty_site *site);
-	/* Told of two fixed sites that are nearer than the gap, which stay. May be NULL. */
+	/*
+	 * Told of two fixed sites that are nearer than the gap, or of one (a and b are the same) that is too near to a line:
+	 * they stay. May be NULL.
+	 */
 	void (*collide)(void *context, uint32_t a, uint32_t b);
 	void *context;
 } ty_legibility;
+
+/* How many fixed sites are too near to each other or to a line, and the first of them. */
+typedef struct ty_collisions
+{
+	size_t pairs, beside_lines;
+	uint32_t first_pair[2], first_beside;
+} ty_collisions;
+
+/* Counts what rules->collide is told of. */
+void ty_note_collision(ty_collisions *collisions, uint32_t a, uint32_t b);
 
 /*
  * Makes n sites legible: in the end none that is drawn is nearer to another than the gap, but for two fixed ones.

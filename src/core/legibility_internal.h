@@ -78,6 +78,8 @@ bool ty_may_join(const ty_ladder *l, uint32_t a, uint32_t b);
  */
 double ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away);
 bool ty_is_line_conflict(const ty_ladder *l, double lack);
+/* Whether a fixed site, which does not yield, is too near to a line. */
+bool ty_fixed_by_line(const ty_ladder *l, uint32_t i);
 /* Whether a line is in reach. */
 bool ty_line_in_reach(const ty_ladder *l, uint32_t i);
 /* Whether the site has come to lie on the other side of a line. */

@@ -81,6 +81,18 @@ ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away)
 }
 
 bool
+ty_fixed_by_line(const ty_ladder *l, uint32_t i)
+{
+	double limit = l->line_gap;
+	ty_point corners[4];
+
+	if (l->rules->lines == NULL)
+		return false;
+	corners_of(l, i, corners);
+	return ty_barrier_lines_gap(l->rules->lines, corners, 4, limit).distance < limit;
+}
+
+bool
 ty_is_line_conflict(const ty_ladder *l, double lack)
 {
 	return lack > l->line_target - l->line_gap;

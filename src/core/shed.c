@@ -117,6 +117,17 @@ find_placeholders(const ty_environment *env, const ty_building *shed, const uint
 	return status;
 }
 
+/* The kept buildings that collide, as indices into the caller's input. */
+static void
+number_collisions(const uint32_t *index, ty_collisions *collisions)
+{
+	if (collisions->pairs > 0)
+		for (int i = 0; i < 2; i++)
+			collisions->first_pair[i] = index[collisions->first_pair[i]];
+	if (collisions->beside_lines > 0)
+		collisions->first_beside = index[collisions->first_beside];
+}
+
 /* Takes sheds among the members: members[] becomes those of the whole input. */
 static void
 join_members(const ty_sheds *sheds, const uint32_t *order, const uint32_t *placeholder, uint32_t *members,
@@ -125,6 +136,7 @@ join_members(const ty_sheds *sheds, const uint32_t *order, const uint32_t *place
 	const uint32_t *shed_index = sheds->index + sheds->houses.n;
 	size_t next = 0;
 
+	number_collisions(sheds->index, &result->collisions);
 	for (size_t k = 0; k < sheds->count; k++)
 		result->placeholders[placeholder[k]].count++;
 	for (size_t i = 0, house = 0; i < result->count; i++)

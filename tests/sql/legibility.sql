@@ -84,5 +84,11 @@ FROM road, typify_derive('house', NULL, 50000, 0.5, 'block', options => (SELECT 
 RESET client_min_messages;
 SELECT id, ST_AsText(ST_Centroid(geom), 3) AS at, round(width::numeric, 3) AS width, member_count FROM unnest((SELECT typify_placeholders(ST_MakeEnvelope(i * 30, 0, i * 30 + 40, 40), i, 50000, 0, typify_options(exponent => 0, min_side => 0.35, min_gap => 0.2),
 	CASE WHEN i IN (3, 4) THEN 'Infinity'::float8 ELSE 1 END) FROM generate_series(1, 6) AS i)) AS p WHERE id IN (3, 4) ORDER BY id;
+-- kept ones stay in place and in size, whatever is beside them; over a layer each kind of collision is told of once
+CREATE TEMP TABLE hall AS
+SELECT i AS id, i % 3 AS block, ST_MakeEnvelope(i * 30, 0, i * 30 + 40, 40) AS geom, CASE WHEN i % 5 IN (0, 1) THEN 'Infinity'::float8 ELSE 1 END AS worth FROM generate_series(1, 20) AS i;
+SELECT d.id, d.geom IS NOT NULL AS drawn, ST_Distance(ST_Centroid(d.geom), ST_Centroid(h.geom)) < 1e-9 AS in_place, round(d.width::numeric, 3) AS width, round(d.length::numeric, 3) AS length
+FROM typify_derive('hall', NULL, 100000, 0, 'block', importance_column => 'worth', options => typify_options(exponent => 0, min_side => 0.35, min_gap => 0.2,
+	barriers => ST_GeomFromText('LINESTRING(165 -100, 165 100)'), barrier_width => 0.5)) AS d JOIN hall AS h USING (id) WHERE worth > 1 ORDER BY d.id;
 DROP VIEW hamlet;
 DROP TABLE settlement_buildings, settlement_roads, settlement_blocks;
