@@ -22,14 +22,14 @@ corners_of(const ty_ladder *l, uint32_t i, ty_point corners[4])
 }
 
 bool
-ty_line_in_reach(const ty_ladder *l, uint32_t i)
+ty_line_in_reach(const ty_ladder *l, uint32_t i, double reach)
 {
 	const ty_site *s = &l->sites[i];
 	double limit;
 
 	if (l->rules->lines == NULL || s->fixed)
 		return false;
-	limit = l->near.discs[i].radius + l->line_target;
+	limit = reach + l->line_target;
 	return ty_barrier_lines_gap(l->rules->lines, &s->home, 1, limit).distance < limit;
 }
 

@@ -53,13 +53,14 @@ SELECT scale, count(*) AS rows, count(geom) > 0.6 * count(*) AS most_drawn, coun
 	pg_temp.too_near(array_agg(geom), 0.2 * scale / 1000) AS too_near, count(*) FILTER (WHERE geom IS NOT NULL AND width < 0.35 * scale / 1000 * (1 - 1e-6)) AS too_small,
 	count(*) FILTER (WHERE abs(ST_Area(geom) - area) > 1e-6 * area) AS other_area
 FROM layer GROUP BY scale ORDER BY scale;
--- the members are those of each group by itself, and where there was room nothing changed
-SELECT count(*) AS rows, count(*) FILTER (WHERE l.members <> g.members OR l.grp <> g.grp) AS other_members, count(*) FILTER (WHERE l.geom::bytea = g.geom::bytea) > 0.2 * count(*) AS many_the_same,
+-- the members are those of each group by itself and of those of the group that did not fit; where there was room nothing changed
+SELECT count(*) AS rows, count(*) FILTER (WHERE l.members[:cardinality(g.members)] <> g.members OR l.grp <> g.grp) AS other_members,
+	count(*) FILTER (WHERE l.members <> g.members) > 0 AS some_took_over, count(*) FILTER (WHERE l.geom::bytea = g.geom::bytea) > 0.2 * count(*) AS many_the_same,
 	pg_temp.too_near((SELECT array_agg(geom) FROM by_group WHERE scale = 100000), 20) > 0 AS groups_were_too_near
 FROM layer AS l JOIN by_group AS g USING (scale, id);
 -- bound to its vertex: nobody is farther from the mean of its members than the gap or half its length
 SELECT count(*) AS too_far FROM (SELECT scale, p.id, p.geom, p.length, ST_SetSRID(ST_MakePoint(avg(ST_X(ST_Centroid(h.geom))), avg(ST_Y(ST_Centroid(h.geom)))), 25832) AS mean
-	FROM layer AS p, unnest(p.members) AS m JOIN house AS h ON h.id = m WHERE p.geom IS NOT NULL GROUP BY scale, p.id, p.geom, p.length) AS q
+	FROM layer AS p JOIN by_group AS g USING (scale, id, members), unnest(p.members) AS m JOIN house AS h ON h.id = m WHERE p.geom IS NOT NULL GROUP BY scale, p.id, p.geom, p.length) AS q
 WHERE ST_Distance(ST_Centroid(geom), mean) > greatest(0.2 * scale / 1000, length / 2) * 1.000001;
 -- footprints too, and in feet
 SELECT pg_temp.too_near(array_agg(geom), 10) AS footprints_too_near, count(geom) > 100 AS drawn FROM typify_derive('house', NULL, 50000, 0.5, 'block', options => typify_options(min_side => 0.35, min_gap => 0.2, shape => 'footprint'));
