@@ -23,17 +23,23 @@ sql -c "CREATE FUNCTION too_near(geoms geometry[], gap float8) RETURNS bigint LA
 		RETURN (SELECT count(*) FROM g AS a JOIN g AS b ON a.n < b.n AND a.geom && ST_Expand(b.geom, gap) AND ST_DWithin(a.geom, b.geom, gap * (1 - 1e-6)));
 	END \$\$"
 
-load() { # load SET: buildings with the block between main roads that each is in, and which are kept
+load() { # load SET: buildings, with those that are kept, and its main roads
 	REAL_DATA=$data/$1
 	sql -c 'DROP TABLE IF EXISTS buildings, roads, main_roads, blocks'
 	load_real buildings roads
 	sql -c "CREATE TABLE main_roads AS SELECT geom FROM roads WHERE class ~ '^(motorway|trunk|primary|secondary|tertiary)(_link)?\$'" \
-		-c "CREATE TABLE blocks AS SELECT row_number() OVER (ORDER BY (d).path) AS block, (d).geom
-			FROM (SELECT ST_Dump(ST_Polygonize(geom)) AS d FROM (SELECT ST_Node(ST_Collect(geom)) AS geom FROM main_roads) AS noded) AS faces" \
-		-c 'CREATE INDEX ON blocks USING gist (geom)' \
 		-c 'ALTER TABLE buildings ADD COLUMN block bigint, ADD COLUMN worth float8 DEFAULT 1' \
-		-c 'UPDATE buildings AS b SET block = k.block FROM blocks AS k WHERE ST_Intersects(k.geom, typify_centre(b.geom)::geometry)' \
-		-c "UPDATE buildings SET worth = 'Infinity' WHERE class IN ('church', 'cathedral', 'castle', 'school', 'town hall')" -c 'ANALYZE'
+		-c "UPDATE buildings SET worth = 'Infinity' WHERE class IN ('church', 'cathedral', 'castle', 'school', 'town hall')"
+}
+
+# set_blocks LINES: the block between the lines of a query, and a frame, that the centre of each building is in
+set_blocks() {
+	sql -c 'DROP TABLE IF EXISTS blocks' \
+		-c "CREATE TABLE blocks AS SELECT row_number() OVER (ORDER BY (d).path) AS block, (d).geom
+			FROM (SELECT ST_Dump(ST_Polygonize(geom)) AS d FROM (SELECT ST_Node(ST_Collect(geom)) AS geom FROM (
+				$1 UNION ALL SELECT ST_Boundary(ST_Expand(ST_SetSRID(ST_Extent(geom)::geometry, min(ST_SRID(geom))), 100)) FROM buildings) AS lines) AS noded) AS faces" \
+		-c 'CREATE INDEX ON blocks USING gist (geom)' \
+		-c 'UPDATE buildings AS b SET block = k.block FROM blocks AS k WHERE ST_Intersects(k.geom, ST_SetSRID(typify_centre(b.geom)::geometry, ST_SRID(b.geom)))' -c 'ANALYZE'
 }
 
 # derive SCALE OPTIONS [ARGUMENT]: the layer; what it warns of is left in the file warnings
@@ -44,31 +50,43 @@ derive() {
 
 # warned PATTERN: the number in the only warning of that kind; 0: there is none
 warned() {
-	sed -n "s/^WARNING:  \([0-9]*\) $1.*/\1/p" "$OWN_FOLDER/warnings" | awk '{ n += $1; k++ } END { print k > 1 ? k " warnings" : n + 0 }'
+	sed -n "s/^WARNING:  \([0-9]*\) $1.*/\1/p" "$OWN_FOLDER/warnings" | awk '{ n += $1; k++ } END { print (k > 1 ? k " warnings" : n + 0) }'
+}
+
+# the placeholders that did not fit in their group, or between those of others
+undrawn() {
+	sed -n -e 's/^WARNING:  \([0-9]*\) placeholders\{0,1\} do.*/\1/p' -e 's/^WARNING:  there is no room for \([0-9]*\) .*/\1/p' "$OWN_FOLDER/warnings" |
+		awk '{ n += $1 } END { print n + 0 }'
 }
 
 everybody() { # everybody WHAT: each building is in one placeholder, and what is not drawn is told of
 	check "$1: buildings that are members" "$(answer 'SELECT count(DISTINCT m) FROM layer, unnest(members) AS m')" "$(answer 'SELECT count(*) FROM buildings')"
 	check "$1: members" "$(answer 'SELECT sum(member_count) FROM layer')" "$(answer 'SELECT count(*) FROM buildings')"
-	check "$1: not drawn, as told" "$(answer 'SELECT count(*) - count(geom) FROM layer')" "$(warned 'placeholders\{0,1\} do')"
+	check "$1: not drawn, as told" "$(answer 'SELECT count(*) - count(geom) FROM layer')" "$(undrawn)"
+}
+
+legible_in_blocks() { # legible_in_blocks WHAT SCALE
+	local what="$1 1:$2"
+	derive "$2" 'min_side => 0.35, min_gap => 0.2'
+	echo "$what: $(answer "SELECT format('%s drawn, %s not, in %s groups; the law says %s', count(geom), count(*) - count(geom), count(DISTINCT grp),
+		(SELECT sum(typify_count(n, $2)) FROM (SELECT count(*) AS n FROM buildings GROUP BY block) AS b)) FROM layer")"
+	check "$what: overlaps and gaps" "$(answer "SELECT too_near(array_agg(geom), 0.2 * $2 / 1000) FROM layer")" 0
+	check "$what: short sides" "$(answer "SELECT count(*) FROM layer WHERE geom IS NOT NULL AND width < 0.35 * $2 / 1000 * (1 - 1e-6)")" 0
+	everybody "$what"
 }
 
 for set in $sets; do
 	load "$set"
-	echo "$set: $(answer "SELECT format('%s blocks with buildings, %s buildings in none', count(DISTINCT block), count(*) FILTER (WHERE block IS NULL)) FROM buildings")"
-	for scale in 50000 100000; do
-		derive $scale 'min_side => 0.35, min_gap => 0.2'
-		what="$set 1:$scale in blocks"
-		echo "$what: $(answer "SELECT format('%s drawn, %s not; the law says %s', count(geom), count(*) - count(geom),
-			(SELECT sum(typify_count(n, $scale)) FROM (SELECT count(*) AS n FROM buildings GROUP BY block) AS b)) FROM layer")"
-		check "$what: overlaps and gaps" "$(answer "SELECT too_near(array_agg(geom), 0.2 * $scale / 1000) FROM layer")" 0
-		check "$what: short sides" "$(answer "SELECT count(*) FROM layer WHERE geom IS NOT NULL AND width < 0.35 * $scale / 1000 * (1 - 1e-6)")" 0
-		everybody "$what"
-	done
+	set_blocks 'SELECT geom FROM main_roads'
+	for scale in 50000 100000; do legible_in_blocks "$set, blocks between main roads" $scale; done
+	[ "$set" = liechtenstein_2024 ] || continue
+	set_blocks 'SELECT geom FROM roads'
+	for scale in 50000 100000; do legible_in_blocks "$set, blocks between all roads" $scale; done
 done
 
 # kept buildings and everything else together
 load "$(awk '{ print $1 }' <<<"$sets")"
+set_blocks 'SELECT geom FROM main_roads'
 for scale in 50000 75000 100000 200000; do
 	what="kept buildings, rows and main roads 1:$scale"
 	derive $scale "alignment => 5, keep_area => 0.5, min_side => 0.35, min_gap => 0.2, barrier_width => 0.5" ", importance_column => 'worth', barriers => 'main_roads'"
