@@ -113,6 +113,8 @@ bool ty_resolve_rows(ty_ladder *l, uint32_t a, uint32_t b, ty_status *status);
 uint32_t ty_stays_in_row(const ty_ladder *l, uint32_t a, uint32_t b);
 /* The site takes the place in a row of what it has been joined from. */
 void ty_take_place(ty_ladder *l, uint32_t i, const ty_site *before);
+/* So far along its row that the site does not leave the end of its line behind. */
+double ty_before_end(const ty_ladder *l, uint32_t i, double along);
 /* The site is in no row any more; or none of its row is. */
 void ty_leave_row(ty_ladder *l, uint32_t i);
 void ty_dissolve_row(ty_ladder *l, uint32_t i);

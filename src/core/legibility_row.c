@@ -113,6 +113,19 @@ length_of(const ty_site_rows *rows, uint32_t row)
 	return length;
 }
 
+double
+ty_before_end(const ty_ladder *l, uint32_t i, double along)
+{
+	const ty_site_rows *rows = rows_of(l);
+	const ty_site *s = &l->sites[i];
+	double beyond = TY_LEAST_PLAY * l->gap;
+
+	if (!ty_in_row(l, i))
+		return along;
+	along = fmin(along, distance(s->home, rows->line[rows->bent[s->row + 1] - 1]) + beyond);
+	return fmax(along, -distance(s->home, rows->line[rows->bent[s->row]]) - beyond);
+}
+
 /* A place on a line, and the stretch of it that it is on: from the point `at` to the next, which is `step` long. */
 typedef struct ty_walk
 {
@@ -218,13 +231,14 @@ room_taken(const ty_ladder *l, uint32_t row)
 	return taken;
 }
 
-/* How many sites fit on the line of a row, on average as wide as they are; the ends may go out by half a gap. */
+/* How many sites fit on the line of a row, on average as wide as they are; the ends hardly go out of it. */
 static uint32_t
 places_on(const ty_ladder *l, uint32_t row, double needed)
 {
 	const ty_site_rows *rows = rows_of(l);
 	uint32_t count = rows->first[row + 1] - rows->first[row];
-	double length = length_of(rows, row) + l->gap, places = floor(length * (count - 1) / needed) + 1;
+	double length = length_of(rows, row) + 2 * TY_LEAST_PLAY * l->gap,
+		   places = floor(length * (count - 1) / needed) + 1;
 
 	return needed > length && places < count ? (uint32_t) places : count;
 }

@@ -86,11 +86,13 @@ shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, doub
 
 /* The way from home of a site on a rail: off its line but a little. */
 static ty_point
-on_rail(const ty_ladder *l, const ty_site *s, ty_point way)
+on_rail(const ty_ladder *l, uint32_t i, ty_point way)
 {
+	const ty_site *s = &l->sites[i];
 	double along = way.x * s->axis.x + way.y * s->axis.y, across = way.y * s->axis.x - way.x * s->axis.y;
 	double play = ty_play(l, s);
 
+	along = ty_before_end(l, i, along);
 	across = fmax(fmin(across, s->rail + play), s->rail - play);
 	return (ty_point){along * s->axis.x - across * s->axis.y, along * s->axis.y + across * s->axis.x};
 }
@@ -106,7 +108,7 @@ displace(ty_ladder *l, uint32_t i, double distance, ty_point n)
 	if (s->fixed || l->frozen[i])
 		return 0;
 	if (ty_on_rail(s))
-		to = on_rail(l, s, to);
+		to = on_rail(l, i, to);
 	length = sqrt(to.x * to.x + to.y * to.y);
 	if (length > bound)
 		to = (ty_point){to.x * (bound / length), to.y * (bound / length)};
