@@ -11,10 +11,9 @@
  * of the time of barriers with gaps was.
  */
 static ty_status
-find_lines(ty_ladder *l, uint32_t i)
+find_lines(ty_ladder *l, uint32_t i, double reach)
 {
-	ty_status status = ty_barrier_lines_near(l->rules->lines, l->sites[i].home,
-											 l->near.discs[i].radius + l->line_target, &l->segments);
+	ty_status status = ty_barrier_lines_near(l->rules->lines, l->sites[i].home, reach + l->line_target, &l->segments);
 	const uint32_t *list;
 
 	if (status != TY_OK)
@@ -26,14 +25,14 @@ find_lines(ty_ladder *l, uint32_t i)
 }
 
 ty_status
-ty_meet_lines(ty_ladder *l, uint32_t i)
+ty_meet_lines(ty_ladder *l, uint32_t i, double reach)
 {
 	ty_status status = TY_OK;
 
 	l->by_line[i] = false;
 	if (l->rules->lines == NULL || l->sites[i].fixed)
 		return TY_OK;
-	status = find_lines(l, i);
+	status = find_lines(l, i, reach);
 	l->by_line[i] = status == TY_OK && l->line_count > 0;
 	return status;
 }
@@ -44,7 +43,7 @@ ty_recall_lines(ty_ladder *l, uint32_t i)
 	const uint32_t *list = ty_lists_get(&l->lines_of, i);
 
 	if (list == NULL)
-		return find_lines(l, i);
+		return find_lines(l, i, l->near.discs[i].radius);
 	l->line_list = list + 1;
 	l->line_count = list[0];
 	return TY_OK;
@@ -175,6 +174,22 @@ ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away)
 	if (distance > 0)
 		return l->line_target - distance;
 	return fmax(lack_of_crossed(l, i, away), l->line_target);
+}
+
+bool
+ty_fixed_by_line(const ty_ladder *l, uint32_t i)
+{
+	const ty_oblong *b = &l->body[i].box;
+	ty_point along = {b->half_length * b->ux, b->half_length * b->uy};
+	ty_point across = {b->half_width * -b->uy, b->half_width * b->ux};
+	ty_point centre = {l->origin.x + b->x, l->origin.y + b->y};
+	ty_point corners[4] = {{centre.x - along.x - across.x, centre.y - along.y - across.y},
+						   {centre.x + along.x - across.x, centre.y + along.y - across.y},
+						   {centre.x + along.x + across.x, centre.y + along.y + across.y},
+						   {centre.x - along.x + across.x, centre.y - along.y + across.y}};
+
+	return l->rules->lines != NULL &&
+		   ty_barrier_lines_gap(l->rules->lines, corners, 4, l->line_gap).distance < l->line_gap;
 }
 
 bool

@@ -30,13 +30,14 @@ growth(const ty_ladder *l, uint32_t i, int floor_size)
 
 /* The size below which a site that was moved would stand too far from home for its longer side. */
 static double
-least_size(const ty_ladder *l, const ty_site *s, int floor_size)
+least_size(const ty_ladder *l, uint32_t i, int floor_size)
 {
+	const ty_site *s = &l->sites[i];
 	double moved = sqrt(s->moved.x * s->moved.x + s->moved.y * s->moved.y);
 	ty_sides high = floor_size >= 1 ? s->full : s->own, low = floor_size >= 1 ? s->own : s->least;
 	double span = high.length - low.length;
 
-	if (moved <= l->gap || 0.5 * low.length >= moved)
+	if (moved <= ty_free_way(l, i) || 0.5 * low.length >= moved)
 		return floor_size;
 	return span > 0 ? floor_size + fmin((2 * moved - low.length) / span, 1) : s->size;
 }
@@ -63,7 +64,7 @@ shrink(ty_ladder *l, uint32_t i, double lack, ty_point n, int floor_size)
 
 	if (l->body[i].stages <= floor_size)
 		return false;
-	least = least_size(l, s, floor_size);
+	least = least_size(l, i, floor_size);
 	span = span_of_stage(l, i, n, floor_size);
 	if (!(size > least))
 		return false;
@@ -92,16 +93,32 @@ shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, int 
 
 /* ---- displacing ---- */
 
+/* The way from home of a site on a rail: off its line but a little. */
+static ty_point
+on_rail(const ty_ladder *l, uint32_t i, ty_point way)
+{
+	const ty_site *s = &l->sites[i];
+	double along = way.x * s->axis.x + way.y * s->axis.y, across = way.y * s->axis.x - way.x * s->axis.y;
+	double play = ty_play(l, s);
+
+	along = ty_before_end(l, i, along);
+	across = fmax(fmin(across, s->rail + play), s->rail - play);
+	return (ty_point){along * s->axis.x - across * s->axis.y, along * s->axis.y + across * s->axis.x};
+}
+
 /* Moves the site, within its bound. How far it came along n. */
 static double
 displace(ty_ladder *l, uint32_t i, double distance, ty_point n)
 {
 	ty_site *s = &l->sites[i];
 	ty_point to = {s->moved.x + distance * n.x, s->moved.y + distance * n.y}, from = s->moved;
-	double bound = fmax(l->gap, l->body[i].box.half_length), squared = to.x * to.x + to.y * to.y;
+	double bound = fmax(ty_free_way(l, i), l->body[i].box.half_length), squared;
 
 	if (s->fixed || l->frozen[i])
 		return 0;
+	if (ty_on_rail(s))
+		to = on_rail(l, i, to);
+	squared = to.x * to.x + to.y * to.y;
 	if (squared > bound * bound)
 	{
 		double factor = bound / sqrt(squared);
@@ -113,13 +130,19 @@ displace(ty_ladder *l, uint32_t i, double distance, ty_point n)
 	return (to.x - from.x) * n.x + (to.y - from.y) * n.y;
 }
 
-/* Pushes b away from a along n, and a from b, half and half; what one cannot do the other does. */
+/*
+ * Pushes b away from a along n, and a from b, half and half, or first the one in no row; what one cannot do the other
+ * does.
+ */
 static void
 push_apart(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point n)
 {
 	ty_point back = {-n.x, -n.y};
+	bool a_stays = ty_on_rail(&l->sites[a]) && !ty_on_rail(&l->sites[b]);
+	bool b_stays = ty_on_rail(&l->sites[b]) && !ty_on_rail(&l->sites[a]);
 
-	lack -= displace(l, a, 0.5 * lack, back);
+	if (!a_stays)
+		lack -= displace(l, a, b_stays ? lack : 0.5 * lack, back);
 	lack -= displace(l, b, lack, n);
 	if (lack > 0)
 		displace(l, a, lack, back);
@@ -262,13 +285,13 @@ set_site(ty_ladder *l, uint32_t i, ty_point moved, double size)
 static void
 go_home(ty_ladder *l, uint32_t i)
 {
-	ty_point moved = l->sites[i].moved;
+	ty_point moved = l->sites[i].moved, rest = ty_rest(&l->sites[i]);
 	double size = l->sites[i].size, share = 0;
 	uint32_t obstacle = TY_NO_SITE;
 
 	for (int step = 0; step < RELENT_STEPS; step++)
 	{
-		set_site(l, i, (ty_point){share * moved.x, share * moved.y}, size);
+		set_site(l, i, (ty_point){rest.x + share * (moved.x - rest.x), rest.y + share * (moved.y - rest.y)}, size);
 		if (has_room(l, i, &obstacle))
 			return;
 		share = 0.5 * (share + 1);
@@ -303,7 +326,8 @@ ty_relent(ty_ladder *l)
 		for (uint32_t i = 0; status == TY_OK && i < l->n; i++)
 		{
 			ty_site *s = &l->sites[i];
-			bool away = s->moved.x != 0 || s->moved.y != 0, small = s->size < 2;
+			ty_point rest = ty_rest(s);
+			bool away = s->moved.x != rest.x || s->moved.y != rest.y, small = s->size < 2;
 
 			if (ty_interrupted_at(l->env, i))
 				return TY_INTERRUPTED;
