@@ -177,15 +177,8 @@ ty_play(const ty_ladder *l, const ty_site *s)
 
 /* legibility_thin.c: joins or hides where so many sites crowd that nothing else can help. */
 ty_status ty_thin_out(ty_ladder *l);
-/* How long it is tried to settle all conflicts. */
-typedef struct ty_patience
-{
-	int rounds;
-	double stagnant; /* share of what was lacking a round before, above which another round is not worth its time */
-} ty_patience;
-
 /* legibility_settle.c: rounds of shrinking and displacing; below: also below true size. */
-ty_status ty_settle(ty_ladder *l, ty_patience patience, bool below);
+ty_status ty_settle(ty_ladder *l, int rounds, bool below);
 /* legibility_settle.c: takes back what was not needed. */
 ty_status ty_relent(ty_ladder *l);
 

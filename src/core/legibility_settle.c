@@ -93,6 +93,8 @@ shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, int 
 
 /* ---- displacing ---- */
 
+#define STAGNANT 0.97 /* share of what was lacking a round before, above which another round is not worth its time */
+
 /* The way from home of a site on a rail: off its line but a little. */
 static ty_point
 on_rail(const ty_ladder *l, uint32_t i, ty_point way)
@@ -213,12 +215,12 @@ settle_site(ty_ladder *l, uint32_t i, bool below)
 }
 
 ty_status
-ty_settle(ty_ladder *l, ty_patience patience, bool below)
+ty_settle(ty_ladder *l, int rounds, bool below)
 {
 	ty_status status = TY_OK;
 	double before = INFINITY;
 
-	for (int round = 0; status == TY_OK && round < patience.rounds && l->active_count > 0; round++)
+	for (int round = 0; status == TY_OK && round < rounds && l->active_count > 0; round++)
 	{
 		l->lacking = 0;
 		for (size_t k = 0; status == TY_OK && k < l->active_count; k++)
@@ -230,7 +232,7 @@ ty_settle(ty_ladder *l, ty_patience patience, bool below)
 				status = settle_site(l, i, below);
 		}
 		ty_next_round(l);
-		if (l->lacking > patience.stagnant * before)
+		if (l->lacking > STAGNANT * before)
 			break;
 		before = l->lacking;
 	}
