@@ -158,7 +158,10 @@ fetch_stars(const ty_run *run, const uint32_t *v, size_t count, bool to_collapse
 			uint32_t beyond = ty_opposite(&run->mesh, ty_next_in_triangle(h));
 
 			if (w != TY_GHOST)
+			{
 				__builtin_prefetch(&run->vertex[w]);
+				__builtin_prefetch(&run->queue.key[w]);
+			}
 			if (w != TY_GHOST && span != NULL && !to_collapse)
 				__builtin_prefetch(&span[w]);
 			if (to_collapse)
@@ -257,6 +260,19 @@ end_of_bucket(const ty_queue *queue, uint32_t b)
 }
 
 /*
+ * The edge at which v, of a bucket, is to be looked at: the least of all, also of those that its other ends cover, for
+ * waiting vertices cover each other's. But not one below the limit so far, of a partner while a batch is gathered: the
+ * limit would stay where it is, and nothing below it be found.
+ */
+static ty_edge
+edge_to_wait_for(const ty_run *run, uint32_t v)
+{
+	ty_edge e = ty_waiting_edge(run, v);
+
+	return ty_is_near(&run->queue, e) ? ty_next_edge(run, v, ty_waiting_floor(run, v)) : e;
+}
+
+/*
  * The limit below which about PART of the vertices of bucket b lie, between its ends and not below the limit so far;
  * the upper end where that cannot be found out. (While a batch is gathered there may be edges below a bucket.)
  */
@@ -276,7 +292,7 @@ limit_of_part(const ty_run *run, uint32_t b)
 			uint32_t v = queue->chunk[c].vertex[i];
 
 			if (met++ % every == 0 && is_waiting(run, v, b))
-				sample[samples++] = ty_next_edge(run, v, ty_waiting_floor(run, v));
+				sample[samples++] = edge_to_wait_for(run, v);
 		}
 	if (samples == 0)
 		return end;

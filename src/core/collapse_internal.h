@@ -136,10 +136,12 @@ ty_status ty_queue_least(ty_run *run, ty_edge *least, uint32_t *h);
 void ty_queue_part(ty_run *run, uint32_t a, uint32_t b);
 /* whether a and b have been taken out as partners */
 bool ty_queue_partners(const ty_run *run, uint32_t a, uint32_t b);
-/* the least edge at v, barriers aside; cost INFINITY when there is none */
+/* the least edge at v, barriers and what its other end covers aside; cost INFINITY when there is none */
 ty_edge ty_least_edge(const ty_run *run, uint32_t v);
-/* What takes the place of an entry of v: with influences the least of its edges after that, else the least of all. */
+/* What takes the place of an entry of v: with influences the least of its edges after that, else as ty_least_edge. */
 ty_edge ty_next_edge(const ty_run *run, uint32_t v, ty_edge above);
+/* the least edge that the entry of a vertex in a bucket may stand for */
+ty_edge ty_waiting_edge(const ty_run *run, uint32_t v);
 /* what comes before the entry of a vertex in a bucket */
 ty_edge ty_waiting_floor(const ty_run *run, uint32_t v);
 /* the mesh's edge_made: covers an edge between two vertices that keep their keys */

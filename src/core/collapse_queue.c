@@ -4,9 +4,14 @@
  * Entries of the queue are edges, or lower bounds for the edges of a vertex. The one invariant is: for every edge
  * of the mesh there is an entry of one of its ends that is not greater, in the order (cost, smaller rank, larger
  * rank), a bound coming before all edges of its cost. So the least entry is a lower bound for all edges. If it is
- * an edge that still exists, it is the least of all; if not, its vertex is looked at again and gets its least edge
- * as its entry. A collapse therefore has to give an entry to one vertex only, the merged one, which covers all its
- * edges; edges that flips make between two others are covered as they are made.
+ * an edge that still exists, it is the least of all; if not, its vertex is looked at again and gets another entry.
+ * A collapse therefore has to give an entry to one vertex only, the merged one; edges that flips make between two
+ * others are covered as they are made.
+ *
+ * Without influences a vertex that gets an entry leaves edges aside that their other ends cover: its entry is the least
+ * of the rest, none where there is no rest. So the invariant holds, whatever the order, for an end that gets a greater
+ * entry later is answerable for the edge then. To enter the least of all its edges meant to look again half as often
+ * more.
  *
  * A vertex's key is the cost of its entry, rounded down to a float. Entries are not removed when a vertex gets
  * another: one that differs from the key counts no longer. (One that equals it by chance does no harm: it is
@@ -179,12 +184,23 @@ ty_queue_partners(const ty_run *run, uint32_t a, uint32_t b)
 }
 
 /*
+ * Whether v has an entry that is not greater than an edge of its at that cost. Where the keys are alike the entry may
+ * be the greater one, but not if the edge lies beyond what is near: v's is near then, or waits in a bucket and counts
+ * as a bound of the key's own cost, or is about to be looked at again. Partners' keys are below all others.
+ */
+static inline bool
+covers(const ty_queue *queue, uint32_t v, double cost)
+{
+	return queue->key[v] < key_of_cost(cost) + (cost > queue->limit.cost);
+}
+
+/*
  * The hottest loop of all. Which edge is the least would be guessed wrong twice a star, so there is no branch: costs,
  * which are not negative, compare as their bits do, and among edges of one vertex ty_before's order is that of the
  * other ends.
  */
-static ty_edge
-least_plain_edge(const ty_run *run, uint32_t v)
+static inline __attribute__((always_inline)) ty_edge
+least_plain_edge(const ty_run *run, uint32_t v, bool uncovered)
 {
 	uint32_t first = run->vertex[v].edge, h = first, other = TY_NONE;
 	int64_t least = INT64_MAX;
@@ -202,6 +218,7 @@ least_plain_edge(const ty_run *run, uint32_t v)
 
 			memcpy(&bits, &cost, sizeof bits);
 			before = (bits < least) | ((bits == least) & (w < other));
+			before = before & !(uncovered && covers(&run->queue, w, cost));
 			least = before ? bits : least;
 			other = before ? w : other;
 		}
@@ -243,7 +260,16 @@ ty_next_edge(const ty_run *run, uint32_t v, ty_edge above)
 {
 	if (run->mesh.live < 2)
 		return (ty_edge){INFINITY, v, TY_NONE};
-	return run->influence == NULL ? least_plain_edge(run, v) : least_influenced_edge(run, v, above);
+	return run->influence == NULL ? least_plain_edge(run, v, true) : least_influenced_edge(run, v, above);
+}
+
+/* Covered ones too: waiting vertices cover each other's. */
+ty_edge
+ty_waiting_edge(const ty_run *run, uint32_t v)
+{
+	if (run->influence == NULL && run->mesh.live >= 2)
+		return least_plain_edge(run, v, false);
+	return ty_next_edge(run, v, ty_waiting_floor(run, v));
 }
 
 ty_edge
