@@ -87,10 +87,10 @@ take_chunk(ty_run *run, uint32_t next)
 	return taken;
 }
 
-ty_status
-ty_bucket_add(ty_run *run, uint32_t v)
+static ty_status
+put(ty_run *run, ty_addition a)
 {
-	ty_bucket *b = &run->queue.bucket[ty_bucket_of(&run->queue, run->queue.key[v])];
+	ty_bucket *b = &run->queue.bucket[a.bucket];
 
 	if (b->count % TY_CHUNK_VERTICES == 0)
 	{
@@ -100,8 +100,40 @@ ty_bucket_add(ty_run *run, uint32_t v)
 			return TY_NO_MEMORY;
 		b->first = c;
 	}
-	run->queue.chunk[b->first].vertex[b->count++ % TY_CHUNK_VERTICES] = v;
+	run->queue.chunk[b->first].vertex[b->count++ % TY_CHUNK_VERTICES] = a.vertex;
 	return TY_OK;
+}
+
+/* Puts into their buckets what has been added. */
+static ty_status
+put_added(ty_run *run)
+{
+	ty_queue *queue = &run->queue;
+	ty_status status = TY_OK;
+
+	for (size_t i = 0; i < queue->added_count; i++)
+	{
+		uint32_t c = queue->bucket[queue->added[i].bucket].first;
+
+		if (c != TY_NONE)
+			__builtin_prefetch(&queue->chunk[c], 1);
+	}
+	for (size_t i = 0; i < queue->added_count && status == TY_OK; i++)
+		status = put(run, queue->added[i]);
+	queue->added_count = 0;
+	return status;
+}
+
+/* A bucket and its chunk have to be waited for one after the other: many are fetched side by side. */
+ty_status
+ty_bucket_add(ty_run *run, uint32_t v)
+{
+	ty_queue *queue = &run->queue;
+	uint32_t b = ty_bucket_of(queue, queue->key[v]);
+
+	__builtin_prefetch(&queue->bucket[b], 1);
+	queue->added[queue->added_count++] = (ty_addition){v, b};
+	return queue->added_count < TY_ADDED ? TY_OK : put_added(run);
 }
 
 /* how many vertices the first chunk of a bucket holds */
@@ -228,6 +260,9 @@ look_at_slice(ty_run *run, uint32_t b, const uint32_t *slice, size_t count)
 	lookout looked = {.count = 0};
 	ty_status status = TY_OK;
 
+	for (size_t i = 0; i < count; i++)
+		if (is_waiting(run, slice[i], b))
+			__builtin_prefetch(&run->vertex[slice[i]]);
 	for (size_t i = 0; i < count && status == TY_OK; i++)
 	{
 		if (is_waiting(run, slice[i], b))
@@ -311,13 +346,13 @@ ty_bucket_drain(ty_run *run, bool *found)
 	uint32_t slice[SLICE];
 	size_t count = 0;
 	ty_bucket bucket;
-	ty_status status = TY_OK;
+	ty_status status = put_added(run);
 
 	while (b < queue->buckets && queue->bucket[b].first == TY_NONE)
 		b++;
 	*found = b < queue->buckets;
-	if (!*found)
-		return TY_OK;
+	if (!*found || status != TY_OK)
+		return status;
 	queue->next = b;
 	queue->passed = queue->limit;
 	queue->limit = queue->bucket[b].count > GIANT(run->n) ? limit_of_part(run, b) : end_of_bucket(queue, b);

@@ -34,6 +34,14 @@ typedef struct ty_bucket
 	uint32_t count; /* of vertices: not in the chunk, which would have to be waited for */
 } ty_bucket;
 
+/* a vertex on its way into a bucket */
+typedef struct ty_addition
+{
+	uint32_t vertex, bucket;
+} ty_addition;
+
+#define TY_ADDED 32
+
 /* The priority order of the edges: see the head of collapse_queue.c. */
 typedef struct ty_queue
 {
@@ -47,6 +55,9 @@ typedef struct ty_queue
 	ty_edge passed;	   /* the limit before: entries in buckets are above it */
 	ty_bucket *bucket; /* [buckets] those before `next` are empty */
 	uint32_t buckets, next;
+	ty_addition
+		added[TY_ADDED]; /* put into their buckets many at a time, before the next one is emptied at the latest */
+	size_t added_count;
 	int shift; /* a key's bits below a bucket's number */
 	ty_chunk *chunk;
 	uint32_t used_chunks, free_chunk;
@@ -156,7 +167,7 @@ void ty_queue_sort(ty_run *run, double low);
 
 /* Makes empty buckets for n vertices. */
 ty_status ty_bucket_begin(ty_run *run);
-/* Puts a vertex into the bucket of its key. */
+/* Adds a vertex to the bucket of its key. */
 ty_status ty_bucket_add(ty_run *run, uint32_t v);
 /* Empties the next bucket that is not: its vertices get their least edges as keys, and so a place in the queue. */
 ty_status ty_bucket_drain(ty_run *run, bool *found);
