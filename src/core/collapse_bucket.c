@@ -186,32 +186,25 @@ fetch_stars(const ty_run *run, const uint32_t *v, size_t count, bool to_collapse
 
 		for (size_t i = 0; i < walks; i++)
 		{
-			uint32_t h = at[i], w = ty_target(&run->mesh, h);
-			uint32_t beyond = ty_opposite(&run->mesh, ty_next_in_triangle(h));
+			uint32_t h = at[i], w, beyond = ty_opposite(&run->mesh, ty_next_in_triangle(h));
 
-			if (w != TY_GHOST)
-			{
-				__builtin_prefetch(&run->vertex[w]);
-				__builtin_prefetch(&run->queue.key[w]);
-			}
-			if (w != TY_GHOST && span != NULL && !to_collapse)
+			h = ty_step_around(&run->mesh, h, &w);
+			__builtin_prefetch(&run->vertex[w]); /* whatever it is: no address is wrong here */
+			__builtin_prefetch(&run->queue.key[w]);
+			if (span != NULL && !to_collapse)
 				__builtin_prefetch(&span[w]);
 			if (to_collapse)
 			{
 				uint32_t apex = ty_origin(&run->mesh, ty_previous_in_triangle(outer[i])); /* fetched one step ago */
 
-				if (apex != TY_GHOST)
-					__builtin_prefetch(&run->vertex[apex]);
+				__builtin_prefetch(&run->vertex[apex]);
 				__builtin_prefetch(&triangles[ty_triangle_of(beyond)]);
 			}
-			h = ty_next_around(&run->mesh, h);
-			if (h == first[i])
-				continue;
 			__builtin_prefetch(&triangles[ty_triangle_of(h)]);
-			first[going] = first[i];
 			at[going] = h;
 			outer[going] = beyond;
-			going++;
+			first[going] = first[i];
+			going += h != first[going];
 		}
 		walks = going;
 	}
