@@ -16,21 +16,19 @@ APT_DIR=${APT_DIR:-$PLACE/packages}
 mkdir -p "$APT_DIR"
 
 # outside SYSTEM: lets its apt and npm get through as ours do, also from behind a proxy with a certificate authority of
-# its own. Certificates lie where ca-certificates takes them when it is installed; who logs in has the rest as settings.
+# its own. Certificates lie where the package ca-certificates takes them from when it is installed.
 outside() {
-	local system=$1 bundle=${NODE_EXTRA_CA_CERTS:-/etc/ssl/certs/ca-certificates.crt} name registry
+	local system=$1 name registry
 	apt-config dump | grep -E '^Acquire::(http|https|Check|Retries)' >"$system/etc/apt/apt.conf.d/00outside" || true
 	cp -L /etc/resolv.conf "$system/etc/resolv.conf"
 	echo "127.0.0.1 localhost $(uname -n)" >"$system/etc/hosts"
-	mkdir -p "$system/usr/local/share/ca-certificates"
-	find /usr/local/share/ca-certificates -name '*.crt' -exec cp -t "$system/usr/local/share/ca-certificates" {} + || true
+	if [ -d /usr/local/share/ca-certificates ]; then
+		cp -RL /usr/local/share/ca-certificates "$system/usr/local/share/"
+	fi
+	# read at every login, by sudo too
 	for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY; do
 		if [ -n "${!name:-}" ]; then echo "$name=${!name}"; fi
 	done >>"$system/etc/environment"
-	if [ -r "$bundle" ]; then
-		cp -L "$bundle" "$system/usr/local/share/outside.crt"
-		echo "NODE_EXTRA_CA_CERTS=/usr/local/share/outside.crt" >>"$system/etc/environment"
-	fi
 	if registry=$(npm config get registry 2>/dev/null); then
 		echo "npm_config_registry=$registry" >>"$system/etc/environment"
 	fi
