@@ -2,7 +2,8 @@
 # prove-fresh-debian.sh [SUITE] - makes fresh minimal Debian systems to which only git and make (and, for a user,
 # sudo) are added, and runs make demo, make test and plain PGXS there, as root and as a user. Then looks for what was
 # left behind. Runs as root, needs debootstrap and the network; removes everything it made.
-# TYPIFY_DATA: a folder of real data that the tests may read there. USERS: "root maria", or one of them.
+# TYPIFY_DATA: a folder of real data that the tests may read there. USERS: "root maria", or one of them. QGIS=1: with
+# the tests that open layers in QGIS.
 . "$(dirname "$0")/chroot.sh"
 SUITE=${1:-bookworm}
 
@@ -26,13 +27,22 @@ cd ~/typify
 step() { echo "--- $(id -un): $*"; }
 as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
 as_postgres() { as_root su postgres -s /bin/sh -c "cd /; $1"; }
+installed() { dpkg-query -W -f '${db:Status-Status} ${Package} ${Installed-Size}\n' "$@" 2>/dev/null | grep ^installed; }
+say_size() { echo "installed: $(installed | awk '{ size += $3 } END { printf "%d packages, %d MB", NR, size / 1024 }')"; }
 if [ -d /srv/data ]; then export TYPIFY_DATA=/srv/data; fi
 status=0
 git init -q . && git add -A && git -c user.name=x -c user.email=x@example.org commit -qm x
 
+say_size
 step make demo; time make demo || status=1
 ls -l demo-output || status=1
+say_size
+if installed nodejs npm chromium gdal-bin libgmp-dev python3-scipy python3-qgis; then
+	echo "the demo does not need these"
+	status=1
+fi
 step make test; time make test || status=1
+say_size
 
 step nothing is left behind
 rm -rf demo-output
@@ -66,7 +76,7 @@ for user in ${USERS:-root maria}; do
 	copy_checkout "$system$home/typify"
 	cp "$PLACE/newcomer.sh" "$system/newcomer.sh"
 	in_system "$system" chown -R "$user:" "$home"
-	if in_system "$system" su - "$user" -c 'bash /newcomer.sh'; then
+	if in_system "$system" su - "$user" -c "QGIS='${QGIS:-}' bash /newcomer.sh"; then
 		echo "=== $SUITE as $user: proven"
 	else
 		echo "=== $SUITE as $user: FAILED"
