@@ -32,55 +32,28 @@
 
 /* --- the aggregate's value --- */
 
-/* The fields of the composite typify_node, in order. */
-enum
-{
-	NODE_NODE = 0,
-	NODE_PARENT,
-	NODE_KEPT,
-	NODE_REPRESENTATIVE,
-	NODE_MEMBER_COUNT,
-	NODE_FIRST_LEAF,
-	NODE_X,
-	NODE_Y,
-	NODE_AREA,
-	NODE_RATIO,
-	NODE_UX,
-	NODE_UY,
-	NODE_COST,
-	NODE_SCALE_FROM,
-	NODE_SCALE_TO,
-	NODE_FIELDS
-};
-
 /* exactly, but for what the null bitmap of a root takes */
 #define NODE_SIZE (MAXALIGN(SizeofHeapTupleHeader + 2) + 6 * sizeof(int32) + sizeof(int64) + 9 * sizeof(float8))
 
-#define FETCHED_AHEAD 16
-
-static void
-add_node(ty_row_array *rows, const ty_hierarchy *h, size_t number)
+void
+ty_node_values(const ty_hierarchy *h, size_t number, const ty_node *node, Datum *values, bool *nulls)
 {
-	ty_node node = ty_hierarchy_node(h, number);
-	Datum *values = rows->values;
-
-	values[NODE_NODE] = Int32GetDatum((int32) number);
-	rows->nulls[NODE_PARENT] = node.parent == TY_NONE;
-	values[NODE_PARENT] = Int32GetDatum((int32) node.parent);
-	values[NODE_KEPT] = BoolGetDatum(node.kept);
-	values[NODE_REPRESENTATIVE] = Int64GetDatum(h->buildings[node.representative].id);
-	values[NODE_MEMBER_COUNT] = Int32GetDatum((int32) node.member_count);
-	values[NODE_FIRST_LEAF] = Int32GetDatum((int32) node.first_leaf);
-	values[NODE_X] = Float8GetDatum(node.x);
-	values[NODE_Y] = Float8GetDatum(node.y);
-	values[NODE_AREA] = Float8GetDatum(node.area);
-	values[NODE_RATIO] = Float8GetDatum(node.ratio);
-	values[NODE_UX] = Float8GetDatum(node.ux);
-	values[NODE_UY] = Float8GetDatum(node.uy);
-	values[NODE_COST] = Float8GetDatum(node.cost);
-	values[NODE_SCALE_FROM] = Float8GetDatum(node.scale_from);
-	values[NODE_SCALE_TO] = Float8GetDatum(node.scale_to);
-	ty_row_array_add(rows);
+	values[TY_NODE_NODE] = Int32GetDatum((int32) number);
+	nulls[TY_NODE_PARENT] = node->parent == TY_NONE;
+	values[TY_NODE_PARENT] = Int32GetDatum((int32) node->parent);
+	values[TY_NODE_KEPT] = BoolGetDatum(node->kept);
+	values[TY_NODE_REPRESENTATIVE] = Int64GetDatum(h->buildings[node->representative].id);
+	values[TY_NODE_MEMBER_COUNT] = Int32GetDatum((int32) node->member_count);
+	values[TY_NODE_FIRST_LEAF] = Int32GetDatum((int32) node->first_leaf);
+	values[TY_NODE_X] = Float8GetDatum(node->x);
+	values[TY_NODE_Y] = Float8GetDatum(node->y);
+	values[TY_NODE_AREA] = Float8GetDatum(node->area);
+	values[TY_NODE_RATIO] = Float8GetDatum(node->ratio);
+	values[TY_NODE_UX] = Float8GetDatum(node->ux);
+	values[TY_NODE_UY] = Float8GetDatum(node->uy);
+	values[TY_NODE_COST] = Float8GetDatum(node->cost);
+	values[TY_NODE_SCALE_FROM] = Float8GetDatum(node->scale_from);
+	values[TY_NODE_SCALE_TO] = Float8GetDatum(node->scale_to);
 }
 
 Datum
@@ -90,14 +63,18 @@ ty_node_array(FunctionCallInfo fcinfo, const ty_input *input, const ty_parameter
 	ty_row_array rows;
 	ty_hierarchy h;
 
-	ty_row_array_begin(&rows, fcinfo, NODE_FIELDS, "typify_node", 2 * n * NODE_SIZE, 2 * n - 1);
+	ty_row_array_begin(&rows, fcinfo, TY_NODE_FIELDS, "typify_node", 2 * n * NODE_SIZE, 2 * n - 1);
 	ty_build_hierarchy(input, p, &h);
 	ARR_DIMS(rows.array)[0] = (int) ty_hierarchy_nodes(&h);
 	for (size_t place = 0; place < ty_hierarchy_nodes(&h); place++)
 	{
+		ty_node node;
+
 		CHECK_FOR_INTERRUPTS();
-		ty_hierarchy_fetch(&h, place + FETCHED_AHEAD);
-		add_node(&rows, &h, ty_hierarchy_stored(&h, place));
+		ty_hierarchy_fetch(&h, place + TY_FETCHED_AHEAD);
+		node = ty_hierarchy_node(&h, ty_hierarchy_stored(&h, place));
+		ty_node_values(&h, ty_hierarchy_stored(&h, place), &node, rows.values, rows.nulls);
+		ty_row_array_add(&rows);
 	}
 	ty_hierarchy_free(&ty_backend_environment, &h);
 	return ty_row_array_end(&rows);
@@ -108,10 +85,14 @@ ty_node_array(FunctionCallInfo fcinfo, const ty_input *input, const ty_parameter
 /* A building's measures have no bytes between them. */
 StaticAssertDecl(sizeof(ty_building) == 6 * sizeof(double) + sizeof(int64), "ty_building is padded");
 
-static int64
-hash_of_building(const ty_building *building)
+int64
+ty_hash_building(const ty_building *building, double importance)
 {
-	return (int64) hash_bytes_extended((const unsigned char *) building, sizeof(*building), 0);
+	uint64 seed = 0;
+
+	if (importance != 1)
+		memcpy(&seed, &importance, sizeof(seed));
+	return (int64) hash_bytes_extended((const unsigned char *) building, sizeof(*building), seed);
 }
 
 PG_FUNCTION_INFO_V1(typify_building_hash);
@@ -124,7 +105,7 @@ typify_building_hash(PG_FUNCTION_ARGS)
 	if (!ty_measure_datum(PG_GETARG_DATUM(0), &building, &srid, NULL))
 		PG_RETURN_NULL();
 	building.id = PG_GETARG_INT64(1);
-	PG_RETURN_INT64(hash_of_building(&building));
+	PG_RETURN_INT64(ty_hash_building(&building, PG_GETARG_FLOAT8(2)));
 }
 
 PG_FUNCTION_INFO_V1(typify_leaf_hash);
@@ -139,7 +120,7 @@ typify_leaf_hash(PG_FUNCTION_ARGS)
 							.ux = PG_GETARG_FLOAT8(5),
 							.uy = PG_GETARG_FLOAT8(6)};
 
-	PG_RETURN_INT64(hash_of_building(&building));
+	PG_RETURN_INT64(ty_hash_building(&building, 1));
 }
 
 /* --- places in the index --- */
@@ -163,16 +144,23 @@ class_of(double reach)
 										: Min((exponent - LEAST_CLASS_BITS + CLASS_BITS - 1) / CLASS_BITS, MOST_CLASS);
 }
 
-/* How far a node reaches that is drawn with the area factor 1, in ground units: half the diagonal. */
+double
+ty_node_reach(double area, double ratio, double psi)
+{
+	return 0.5 * sqrt(area * (ratio + 1 / ratio)) * sqrt(fmax(1, (1 - psi) / (1 - REACH_PSI)));
+}
+
+Point
+ty_node_place(double x, double y, double reach, double scale_to, double source_scale)
+{
+	return (Point){x + BAND_SHIFT * ty_band(scale_to, source_scale), y + BAND_SHIFT * class_of(reach)};
+}
+
 PG_FUNCTION_INFO_V1(typify_reach);
 Datum
 typify_reach(PG_FUNCTION_ARGS)
 {
-	double area = PG_GETARG_FLOAT8(0);
-	double ratio = PG_GETARG_FLOAT8(1);
-	double psi = PG_GETARG_FLOAT8(2);
-
-	PG_RETURN_FLOAT8(0.5 * sqrt(area * (ratio + 1 / ratio)) * sqrt(fmax(1, (1 - psi) / (1 - REACH_PSI))));
+	PG_RETURN_FLOAT8(ty_node_reach(PG_GETARG_FLOAT8(0), PG_GETARG_FLOAT8(1), PG_GETARG_FLOAT8(2)));
 }
 
 PG_FUNCTION_INFO_V1(typify_place);
@@ -181,8 +169,8 @@ typify_place(PG_FUNCTION_ARGS)
 {
 	Point *place = palloc(sizeof(Point));
 
-	place->x = PG_GETARG_FLOAT8(0) + BAND_SHIFT * ty_band(PG_GETARG_FLOAT8(3), PG_GETARG_FLOAT8(4));
-	place->y = PG_GETARG_FLOAT8(1) + BAND_SHIFT * class_of(PG_GETARG_FLOAT8(2));
+	*place = ty_node_place(PG_GETARG_FLOAT8(0), PG_GETARG_FLOAT8(1), PG_GETARG_FLOAT8(2), PG_GETARG_FLOAT8(3),
+						   PG_GETARG_FLOAT8(4));
 	PG_RETURN_POINT_P(place);
 }
 
