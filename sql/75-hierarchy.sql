@@ -173,14 +173,14 @@ LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE;
 COMMENT ON FUNCTION typify_reach(double precision, double precision, double precision) IS
 'How far the rectangle of a node reaches from its vertex before it is enlarged, half its diagonal: what typify_place and typify_search sort by size. More for a psi below 0.75, which is enlarged more.';
 
-CREATE FUNCTION typify_place(x double precision, y double precision, reach double precision, scale_to double precision,
-	source_scale double precision)
+CREATE FUNCTION typify_place(x double precision, y double precision, reach double precision,
+	scale_from double precision, scale_to double precision, source_scale double precision)
 RETURNS point
 AS 'MODULE_PATHNAME'
 LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE;
 COMMENT ON FUNCTION typify_place(double precision, double precision, double precision, double precision,
-	double precision) IS
-'Where a node stands in the index of a hierarchy: its vertex, moved by 2^28 units in x for each band of scale_to (two bands for a doubling of the scale, the last one for roots) and in y for each class of its reach.';
+	double precision, double precision) IS
+'Where a node stands in the index of a hierarchy: its vertex, moved by 2^28 units in x for each band of scale_to (two bands for a doubling of the scale, the last one for roots) and in y for each class of its reach and, within that, of how many bands its life span lasts.';
 
 CREATE FUNCTION typify_search(box box, scale_from double precision, scale_to double precision, reach double precision,
 	top double precision, source_scale double precision, lod200_scale double precision, min_side double precision)
@@ -514,7 +514,8 @@ BEGIN
 			LEFT JOIN step AS dead ON dead.group_id = n.group_id AND dead.node = n.parent
 		)
 		UPDATE %1$s AS n SET scale_from = span.scale_from, scale_to = span.scale_to,
-			place = typify_place(x, y, typify_reach(area, ratio, span.psi), span.scale_to, $2)
+			place = typify_place(x, y, typify_reach(area, ratio, span.psi), span.scale_from, span.scale_to,
+				$2)
 		FROM span WHERE span.group_id = n.group_id AND span.node = n.node
 			AND (n.scale_from, n.scale_to) IS DISTINCT FROM (span.scale_from, span.scale_to)',
 		part.nodes, part.groups) USING given, source_scale;

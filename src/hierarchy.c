@@ -2,12 +2,13 @@
  * hierarchy.c - nodes of a hierarchy: as the value of the aggregate, as placeholders at a scale, and where they stand
  * in the index.
  *
- * The index is a GiST index over points of the plane, which is built by sorting. A node that dies at a scale s' is
- * looked for at all scales below; its polygon at a scale s reaches as far from its vertex as it is large. So nodes
- * stand in bands, by scale_to, and in classes, by size, each a copy of the plane: a point is moved by BAND_SHIFT for
- * every band in x, for every class in y. A look-up asks each band from that of s on, in every class for the box
- * widened by what the largest of the class reaches at s. Half of what it finds is alive, since after s there appear
- * fewer nodes than are alive at s; that is checked, and the polygon itself against the box.
+ * The index is a GiST index over points of the plane, which is built by sorting. What is asked of it is a place, a
+ * scale between scale_from and scale_to, and as much more room as a polygon reaches from its vertex. So nodes stand in
+ * copies of the plane, beside one another by BAND_SHIFT: in x by the band in which their life spans end, in y by how
+ * many bands these last and, for each of that, by size. A look-up asks, of each class of sizes and lifetimes, the bands
+ * from that of the scale to the last in which a life span that has begun may end, for the box widened by what the
+ * largest of the class reaches at the scale. Two thirds of what it finds is alive; that is checked, and the polygon
+ * itself against the box.
  */
 #include "compat.h"
 
@@ -150,10 +151,18 @@ ty_node_reach(double area, double ratio, double psi)
 	return 0.5 * sqrt(area * (ratio + 1 / ratio)) * sqrt(fmax(1, (1 - psi) / (1 - REACH_PSI)));
 }
 
-Point
-ty_node_place(double x, double y, double reach, double scale_to, double source_scale)
+/* in y: the copies of a class stand together */
+static double
+row_shift(int class, int lifetime)
 {
-	return (Point){x + BAND_SHIFT * ty_band(scale_to, source_scale), y + BAND_SHIFT * class_of(reach)};
+	return BAND_SHIFT * (class * TY_LIFETIMES + lifetime);
+}
+
+Point
+ty_node_place(double x, double y, double reach, double scale_from, double scale_to, double source_scale)
+{
+	return (Point){x + BAND_SHIFT * ty_band(scale_to, source_scale),
+				   y + row_shift(class_of(reach), ty_lifetime(scale_from, scale_to, source_scale))};
 }
 
 PG_FUNCTION_INFO_V1(typify_reach);
@@ -170,7 +179,7 @@ typify_place(PG_FUNCTION_ARGS)
 	Point *place = palloc(sizeof(Point));
 
 	*place = ty_node_place(PG_GETARG_FLOAT8(0), PG_GETARG_FLOAT8(1), PG_GETARG_FLOAT8(2), PG_GETARG_FLOAT8(3),
-						   PG_GETARG_FLOAT8(4));
+						   PG_GETARG_FLOAT8(4), PG_GETARG_FLOAT8(5));
 	PG_RETURN_POINT_P(place);
 }
 
@@ -202,14 +211,14 @@ widening(const search *s, double reach)
 
 /* The box, wider, in a copy of the plane. */
 static BOX
-shifted_box(const search *s, int band, int class, double wider)
+shifted_box(const search *s, int band, int class, int lifetime, double wider)
 {
 	BOX box;
 
 	box.low.x = s->box.low.x - wider + BAND_SHIFT * band;
 	box.high.x = s->box.high.x + wider + BAND_SHIFT * band;
-	box.low.y = s->box.low.y - wider + BAND_SHIFT * class;
-	box.high.y = s->box.high.y + wider + BAND_SHIFT * class;
+	box.low.y = s->box.low.y - wider + row_shift(class, lifetime);
+	box.high.y = s->box.high.y + wider + row_shift(class, lifetime);
 	return box;
 }
 
@@ -228,7 +237,7 @@ copies_are_apart(const search *s, double wider)
 static BOX
 box_of_all(const search *s, int most_class, double wider)
 {
-	BOX box = shifted_box(s, 0, 0, wider), last = shifted_box(s, TY_ROOT_BAND, most_class, wider);
+	BOX box = shifted_box(s, 0, 0, 0, wider), last = shifted_box(s, TY_ROOT_BAND, most_class, TY_LIFETIMES - 1, wider);
 
 	box.high = last.high;
 	return box;
@@ -243,10 +252,24 @@ box_datum(BOX box)
 	return BoxPGetDatum(copy);
 }
 
+/* Of a class and lifetime: the bands in which what is alive at these scales may end. */
+static int
+list_bands(const search *s, int class, int lifetime, double wider, Datum *boxes)
+{
+	int first = ty_band(s->low, s->source_scale), greatest = ty_band(s->top, s->source_scale);
+	int last = Min(ty_last_band(lifetime, ty_band(s->high, s->source_scale)), greatest);
+	int count = 0;
+
+	for (int band = first; band <= last && band < TY_ROOT_BAND; band++)
+		boxes[count++] = box_datum(shifted_box(s, band, class, lifetime, wider));
+	if (lifetime == TY_LIFETIMES - 1)
+		boxes[count++] = box_datum(shifted_box(s, TY_ROOT_BAND, class, lifetime, wider));
+	return count;
+}
+
 static int
 list_boxes(const search *s, int most_class, Datum *boxes)
 {
-	int first = ty_band(s->low, s->source_scale), last = ty_band(s->top, s->source_scale);
 	int count = 0;
 
 	for (int class = 0; class <= most_class; class ++)
@@ -254,9 +277,8 @@ list_boxes(const search *s, int most_class, Datum *boxes)
 		double limit = ldexp(1, LEAST_CLASS_BITS + CLASS_BITS * class);
 		double wider = widening(s, class == most_class ? s->reach : limit);
 
-		for (int band = first; band <= last && band < TY_ROOT_BAND; band++)
-			boxes[count++] = box_datum(shifted_box(s, band, class, wider));
-		boxes[count++] = box_datum(shifted_box(s, TY_ROOT_BAND, class, wider));
+		for (int lifetime = 0; lifetime < TY_LIFETIMES; lifetime++)
+			count += list_bands(s, class, lifetime, wider, boxes + count);
 	}
 	return count;
 }
@@ -274,7 +296,7 @@ typify_search(PG_FUNCTION_ARGS)
 				.lod200_scale = PG_GETARG_FLOAT8(6),
 				.min_side = PG_GETARG_FLOAT8(7)};
 	int most_class = class_of(s.reach), count = 1;
-	Datum *boxes = palloc(sizeof(Datum) * (most_class + 1) * (TY_ROOT_BAND + 1));
+	Datum *boxes = palloc(sizeof(Datum) * (most_class + 1) * TY_LIFETIMES * (TY_ROOT_BAND + 1));
 	double widest = widening(&s, s.reach);
 
 	if (copies_are_apart(&s, widest))

@@ -40,7 +40,7 @@ extern void ty_node_values(const ty_hierarchy *h, size_t number, const ty_node *
 /* How far a node reaches that is drawn with the area factor 1, in ground units: half the diagonal. */
 extern double ty_node_reach(double area, double ratio, double psi);
 /* Where a node stands in the index; see hierarchy.c. */
-extern Point ty_node_place(double x, double y, double reach, double scale_to, double source_scale);
+extern Point ty_node_place(double x, double y, double reach, double scale_from, double scale_to, double source_scale);
 
 /* A hash of what a hierarchy takes from a building. */
 extern int64 ty_hash_building(const ty_building *building, double importance);

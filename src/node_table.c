@@ -222,7 +222,7 @@ add_node(node_table *t, const ty_state *s, const ty_hierarchy *h, size_t number,
 	memset(slot->tts_isnull + COLUMNS, true, (columns - COLUMNS) * sizeof(bool));
 	slot->tts_values[COLUMN_GROUP_ID] = Int32GetDatum(s->group_id);
 	ty_node_values(h, number, node, slot->tts_values + COLUMN_NODE, slot->tts_isnull + COLUMN_NODE);
-	*place = ty_node_place(node->x, node->y, reach, node->scale_to, s->parameters.source_scale);
+	*place = ty_node_place(node->x, node->y, reach, node->scale_from, node->scale_to, s->parameters.source_scale);
 	slot->tts_values[COLUMN_PLACE] = PointPGetDatum(place);
 	ExecStoreVirtualTuple(slot);
 	t->waiting++;

@@ -19,7 +19,7 @@ BEGIN
 		)
 		SELECT count(*), count(*) FILTER (WHERE (n.parent, n.kept, n.representative, n.member_count, n.first_leaf, n.x, n.y, n.area, n.ratio, n.ux, n.uy, n.cost, n.scale_from, n.scale_to, n.place::text)
 				IS DISTINCT FROM (e.parent, e.kept, e.representative, e.member_count, e.first_leaf, e.x, e.y, e.area, e.ratio, e.ux, e.uy, e.cost, e.scale_from, e.scale_to,
-				typify_place(e.x, e.y, e.reach, e.scale_to, 25000)::text)),
+				typify_place(e.x, e.y, e.reach, e.scale_from, e.scale_to, 25000)::text)),
 			(SELECT count(*) FROM %1$s_groups AS g FULL JOIN (
 					SELECT grp, count(*) FILTER (WHERE member_count = 1) AS count, max(reach) AS reach, ST_MakeEnvelope(min(x), min(y), max(x), max(y), 25832) AS extent FROM placed GROUP BY grp) AS p USING (grp)
 				FULL JOIN (SELECT block::text AS grp, bit_xor(typify_building_hash(geom, id, coalesce(%2$s, 1))) AS state FROM worth GROUP BY block) AS s USING (grp)
