@@ -20,7 +20,7 @@
 
 #define SLACK 0.01		  /* of the gap: what is aimed at beyond it, so that pushing comes to an end */
 #define ROUNDING_STEPS 16 /* units in the last place of coordinates and sides: what drawing may round away */
-#define ROUNDS 8 /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
+#define ROUNDS 8		  /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
 #define POOL_PER_SITE 32  /* numbers; a site in a town has 20 near it, of which 2 are in its way */
 #define NOT_CACHED UINT32_MAX
 
@@ -74,9 +74,10 @@ ty_place_box(ty_ladder *l, uint32_t i)
 
 /* how far from home any of the site can come to lie, and half of the target */
 static double
-reach_of(const ty_ladder *l, const ty_site *s)
+reach_of(const ty_ladder *l, uint32_t i)
 {
-	double bound = s->fixed ? 0 : fmax(l->gap, 0.5 * fmax(s->full.length, s->full.width));
+	const ty_site *s = &l->sites[i];
+	double bound = s->fixed ? 0 : fmax(ty_free_way(l, i), 0.5 * fmax(s->full.length, s->full.width));
 
 	return half_diagonal(s->full) + sqrt(s->shift.x * s->shift.x + s->shift.y * s->shift.y) + bound + 0.5 * l->target;
 }
@@ -87,8 +88,9 @@ ty_enter_site(ty_ladder *l, uint32_t i)
 	const ty_site *s = &l->sites[i];
 
 	ty_place_box(l, i);
-	ty_vicinity_insert(&l->near, i, (ty_point){s->home.x - l->origin.x, s->home.y - l->origin.y}, reach_of(l, s));
-	l->by_line[i] = ty_line_in_reach(l, i);
+	l->by_line[i] = false;
+	l->by_line[i] = ty_line_in_reach(l, i, reach_of(l, i));
+	ty_vicinity_insert(&l->near, i, (ty_point){s->home.x - l->origin.x, s->home.y - l->origin.y}, reach_of(l, i));
 }
 
 void
@@ -140,19 +142,37 @@ forget_near(ty_ladder *l, uint32_t i)
 ty_status
 ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t in_place, uint32_t *kept)
 {
-	uint32_t gone = a < b ? b : a;
+	uint32_t gone = a < b ? b : a, stays = in_place == TY_NO_SITE ? ty_stays_in_row(l, a, b) : in_place;
+	ty_site before = {.row = TY_NO_ROW};
 	ty_status status;
 
 	*kept = a < b ? a : b;
 	ty_vicinity_remove(&l->near, a);
 	ty_vicinity_remove(&l->near, b);
-	status = l->rules->join(l->rules->context, *kept, gone, in_place, &l->sites[*kept]);
+	if (stays != TY_NO_SITE)
+	{
+		ty_leave_row(l, stays == a ? b : a);
+		before = l->sites[stays];
+	}
+	status = l->rules->join(l->rules->context, *kept, gone, stays, &l->sites[*kept]);
+	ty_take_place(l, *kept, &before);
 	l->sites[gone].state = TY_JOINED;
 	l->sites[gone].into = *kept;
 	l->start[*kept] = (ty_point){0, 0};
 	l->start_size[*kept] = 2;
 	ty_enter_site(l, *kept);
 	return status == TY_OK ? forget_near(l, *kept) : status;
+}
+
+ty_status
+ty_rehome_site(ty_ladder *l, uint32_t i, ty_point home)
+{
+	ty_vicinity_remove(&l->near, i);
+	l->sites[i].home = home;
+	l->sites[i].moved = l->start[i] = ty_rest(&l->sites[i]);
+	l->sites[i].relaid = true;
+	ty_enter_site(l, i);
+	return forget_near(l, i);
 }
 
 ty_status
@@ -289,7 +309,7 @@ freeze(ty_ladder *l, uint32_t i)
 	ty_place_box(l, i);
 }
 
-/* Which of two goes where one has to: not the fixed one, the one with more conflicts, the lighter, the later. */
+/* Which of two goes where one has to: not the fixed one, not one of a row, the one with more conflicts, the lighter, the later. */
 static uint32_t
 lesser(const ty_ladder *l, uint32_t a, uint32_t b)
 {
@@ -297,6 +317,8 @@ lesser(const ty_ladder *l, uint32_t a, uint32_t b)
 
 	if (s->fixed != t->fixed)
 		return s->fixed ? b : a;
+	if (ty_on_rail(s) != ty_on_rail(t))
+		return ty_on_rail(s) ? b : a;
 	if (l->degree[a] != l->degree[b])
 		return l->degree[a] > l->degree[b] ? a : b;
 	return s->weight < t->weight ? a : b;
@@ -325,7 +347,10 @@ static ty_status
 resolve(ty_ladder *l, uint32_t a, uint32_t b)
 {
 	uint32_t goes = a == b ? a : lesser(l, a, b);
+	ty_status status;
 
+	if (ty_resolve_rows(l, a, b, &status))
+		return status;
 	if (l->rules->join == NULL)
 	{
 		if (l->sites[a].group == l->sites[b].group && !(l->frozen[a] && l->frozen[b]))
@@ -339,8 +364,7 @@ resolve(ty_ladder *l, uint32_t a, uint32_t b)
 	}
 	if (a != b && ty_may_join(l, a, b))
 	{
-		ty_status status = ty_join_sites(l, a, b, TY_NO_SITE, &goes);
-
+		status = ty_join_sites(l, a, b, TY_NO_SITE, &goes);
 		ty_activate(l, goes);
 		return status;
 	}
@@ -395,6 +419,8 @@ resolve_worst(ty_ladder *l, uint8_t *touched)
 	}
 	if (status == TY_OK)
 		status = resolve_in_order(l, order, touched);
+	if (status == TY_OK)
+		status = ty_lay_out_rows(l);
 	for (size_t k = 0; k < l->conflict_count; k++)
 	{
 		touched[l->conflicts[k].a] = touched[l->conflicts[k].b] = UNTOUCHED;
@@ -423,7 +449,7 @@ ty_next_round(ty_ladder *l)
 static void
 activate_all(ty_ladder *l)
 {
-	l->next_count = 0;
+	ty_next_round(l);
 	for (size_t i = 0; i < l->n; i++)
 		if (l->sites[i].state == TY_DRAWN)
 			ty_activate(l, (uint32_t) i);
@@ -451,7 +477,7 @@ climb(ty_ladder *l, uint8_t *touched)
 	return status;
 }
 
-/* Tells of fixed sites that are too near to each other. */
+/* Tells of fixed sites that are too near to each other, or to a line. */
 static ty_status
 tell_collisions(ty_ladder *l)
 {
@@ -461,6 +487,8 @@ tell_collisions(ty_ladder *l)
 	{
 		if (!ty_is_drawn(l, i) || !l->sites[i].fixed)
 			continue;
+		if (ty_fixed_by_line(l, i))
+			l->rules->collide(l->rules->context, i, i);
 		status = ty_find_near(l, i);
 		for (size_t m = 0; status == TY_OK && m < l->list_count; m++)
 		{
@@ -480,10 +508,12 @@ static ty_status
 run(ty_ladder *l)
 {
 	uint8_t *touched = ty_allocate_array(l->env, l->n, sizeof *touched);
-	ty_status status = touched == NULL ? TY_NO_MEMORY : ty_thin_out(l);
+	ty_status status = touched == NULL ? TY_NO_MEMORY : ty_thin_rows(l);
 
 	if (touched != NULL)
 		memset(touched, 0, l->n * sizeof *touched);
+	if (status == TY_OK)
+		status = ty_thin_out(l);
 	for (bool again = true, relented = false; status == TY_OK && again;)
 	{
 		activate_all(l);
@@ -498,6 +528,21 @@ run(ty_ladder *l)
 	}
 	ty_release(l->env, touched);
 	return status;
+}
+
+void
+ty_note_collision(ty_collisions *collisions, uint32_t a, uint32_t b)
+{
+	if (a == b)
+	{
+		if (collisions->beside_lines++ == 0)
+			collisions->first_beside = a;
+	}
+	else if (collisions->pairs++ == 0)
+	{
+		collisions->first_pair[0] = a;
+		collisions->first_pair[1] = b;
+	}
 }
 
 /* ---- set-up ---- */

@@ -63,6 +63,13 @@ ty_is_conflict(const ty_ladder *l, double lack)
 	return lack > l->target - l->gap;
 }
 
+/* How far the site may be moved in any case: by the gap, and beside a line as far as it takes to get off its symbol. */
+static inline double
+ty_free_way(const ty_ladder *l, uint32_t i)
+{
+	return l->by_line[i] ? l->line_gap + 0.5 * l->sites[i].least.length : l->gap;
+}
+
 /* The box of a site anew, from its place and size. */
 void ty_place_box(ty_ladder *l, uint32_t i);
 /* The site enters the vicinity, or leaves it for good. */
@@ -78,8 +85,10 @@ bool ty_may_join(const ty_ladder *l, uint32_t a, uint32_t b);
  */
 double ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away);
 bool ty_is_line_conflict(const ty_ladder *l, double lack);
-/* Whether a line is in reach. */
-bool ty_line_in_reach(const ty_ladder *l, uint32_t i);
+/* Whether a fixed site, which does not yield, is too near to a line. */
+bool ty_fixed_by_line(const ty_ladder *l, uint32_t i);
+/* Whether a line is in reach of the site, which reaches so far. */
+bool ty_line_in_reach(const ty_ladder *l, uint32_t i, double reach);
 /* Whether the site has come to lie on the other side of a line. */
 bool ty_is_across(const ty_ladder *l, uint32_t i);
 /* The nearest that is drawn: of those that it may be joined to or, if there is none near, of all. */
@@ -90,6 +99,54 @@ ty_status ty_find_near(ty_ladder *l, uint32_t i);
 void ty_next_round(ty_ladder *l);
 /* The site is looked at in the next round. */
 void ty_activate(ty_ladder *l, uint32_t i);
+
+/* The site belongs elsewhere from now on. */
+ty_status ty_rehome_site(ty_ladder *l, uint32_t i, ty_point home);
+
+/* legibility_row.c: first of all, rows become ones that fit on their lines. */
+ty_status ty_thin_rows(ty_ladder *l);
+/* Lays out evenly the rows that have become fewer since. */
+ty_status ty_lay_out_rows(ty_ladder *l);
+/* Resolves a conflict in which a site of a row would have to yield. False: it is none. */
+bool ty_resolve_rows(ty_ladder *l, uint32_t a, uint32_t b, ty_status *status);
+/* Which of two stays where it is when they are joined, because it is in a row; TY_NO_SITE: neither is. */
+uint32_t ty_stays_in_row(const ty_ladder *l, uint32_t a, uint32_t b);
+/* The site takes the place in a row of what it has been joined from. */
+void ty_take_place(ty_ladder *l, uint32_t i, const ty_site *before);
+/* The site is in no row any more; or none of its row is. */
+void ty_leave_row(ty_ladder *l, uint32_t i);
+void ty_dissolve_row(ty_ladder *l, uint32_t i);
+/* Whether the site stands in a row that may be changed, and whether it is on a rail in any case. */
+static inline bool
+ty_in_row(const ty_ladder *l, uint32_t i)
+{
+	return l->rules->rows != NULL && l->sites[i].row != TY_NO_ROW;
+}
+
+static inline bool
+ty_on_rail(const ty_site *s)
+{
+	return s->axis.x != 0 || s->axis.y != 0;
+}
+
+/* From home, where the site stands as long as nobody pushes it. */
+static inline ty_point
+ty_rest(const ty_site *s)
+{
+	return (ty_point){-s->rail * s->axis.y, s->rail * s->axis.x};
+}
+
+#define TY_OFF_LINE 0.48  /* of the gap: how far from the line along its buildings a site of a row may be pushed, ... */
+#define TY_LEAST_PLAY 0.1 /* ... but as far as this from its rail in any case */
+
+/* How far a site may stand beside its rail. */
+static inline double
+ty_play(const ty_ladder *l, const ty_site *s)
+{
+	double play = TY_OFF_LINE * l->gap - s->bend, least = TY_LEAST_PLAY * l->gap;
+
+	return play > least ? play : least;
+}
 
 /* legibility_thin.c: joins or hides where so many sites crowd that nothing else can help. */
 ty_status ty_thin_out(ty_ladder *l);

@@ -22,14 +22,14 @@ corners_of(const ty_ladder *l, uint32_t i, ty_point corners[4])
 }
 
 bool
-ty_line_in_reach(const ty_ladder *l, uint32_t i)
+ty_line_in_reach(const ty_ladder *l, uint32_t i, double reach)
 {
 	const ty_site *s = &l->sites[i];
 	double limit;
 
 	if (l->rules->lines == NULL || s->fixed)
 		return false;
-	limit = l->near.discs[i].radius + l->line_target;
+	limit = reach + l->line_target;
 	return ty_barrier_lines_gap(l->rules->lines, &s->home, 1, limit).distance < limit;
 }
 
@@ -78,6 +78,18 @@ ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away)
 		return fmax(lack_of_crossed(l, i, away), l->line_target);
 	*away = unit_vector(gap.line, gap.shape, gap.distance);
 	return l->line_target - gap.distance;
+}
+
+bool
+ty_fixed_by_line(const ty_ladder *l, uint32_t i)
+{
+	double limit = l->line_gap;
+	ty_point corners[4];
+
+	if (l->rules->lines == NULL)
+		return false;
+	corners_of(l, i, corners);
+	return ty_barrier_lines_gap(l->rules->lines, corners, 4, limit).distance < limit;
 }
 
 bool

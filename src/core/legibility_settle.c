@@ -28,13 +28,14 @@ growth(const ty_ladder *l, uint32_t i, double floor_size)
 
 /* The size below which a site that was moved would stand too far from home for its longer side. */
 static double
-least_size(const ty_ladder *l, const ty_site *s, double floor_size)
+least_size(const ty_ladder *l, uint32_t i, double floor_size)
 {
+	const ty_site *s = &l->sites[i];
 	double moved = sqrt(s->moved.x * s->moved.x + s->moved.y * s->moved.y);
 	ty_sides high = floor_size >= 1 ? s->full : s->own, low = floor_size >= 1 ? s->own : s->least;
 	double span = high.length - low.length;
 
-	if (moved <= l->gap || 0.5 * low.length >= moved)
+	if (moved <= ty_free_way(l, i) || 0.5 * low.length >= moved)
 		return floor_size;
 	return span > 0 ? floor_size + fmin((2 * moved - low.length) / span, 1) : s->size;
 }
@@ -44,7 +45,7 @@ static bool
 shrink(ty_ladder *l, uint32_t i, double lack, ty_point n, double floor_size)
 {
 	ty_site *s = &l->sites[i];
-	double size = s->size, least = least_size(l, s, floor_size), span;
+	double size = s->size, least = least_size(l, i, floor_size), span;
 
 	s->size = floor_size;
 	ty_place_box(l, i);
@@ -83,16 +84,30 @@ shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, doub
 
 #define STAGNANT 0.97 /* share of what was lacking a round before, above which another round is not worth its time */
 
+/* The way from home of a site on a rail: off its line but a little. */
+static ty_point
+on_rail(const ty_ladder *l, const ty_site *s, ty_point way)
+{
+	double along = way.x * s->axis.x + way.y * s->axis.y, across = way.y * s->axis.x - way.x * s->axis.y;
+	double play = ty_play(l, s);
+
+	across = fmax(fmin(across, s->rail + play), s->rail - play);
+	return (ty_point){along * s->axis.x - across * s->axis.y, along * s->axis.y + across * s->axis.x};
+}
+
 /* Moves the site, within its bound. How far it came along n. */
 static double
 displace(ty_ladder *l, uint32_t i, double distance, ty_point n)
 {
 	ty_site *s = &l->sites[i];
 	ty_point to = {s->moved.x + distance * n.x, s->moved.y + distance * n.y}, from = s->moved;
-	double bound = fmax(l->gap, l->box[i].half_length), length = sqrt(to.x * to.x + to.y * to.y);
+	double bound = fmax(ty_free_way(l, i), l->box[i].half_length), length;
 
 	if (s->fixed || l->frozen[i])
 		return 0;
+	if (ty_on_rail(s))
+		to = on_rail(l, s, to);
+	length = sqrt(to.x * to.x + to.y * to.y);
 	if (length > bound)
 		to = (ty_point){to.x * (bound / length), to.y * (bound / length)};
 	s->moved = to;
@@ -100,13 +115,19 @@ displace(ty_ladder *l, uint32_t i, double distance, ty_point n)
 	return (to.x - from.x) * n.x + (to.y - from.y) * n.y;
 }
 
-/* Pushes b away from a along n, and a from b, half and half; what one cannot do the other does. */
+/*
+ * Pushes b away from a along n, and a from b, half and half, or first the one in no row; what one cannot do the other
+ * does.
+ */
 static void
 push_apart(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point n)
 {
 	ty_point back = {-n.x, -n.y};
+	bool a_stays = ty_on_rail(&l->sites[a]) && !ty_on_rail(&l->sites[b]);
+	bool b_stays = ty_on_rail(&l->sites[b]) && !ty_on_rail(&l->sites[a]);
 
-	lack -= displace(l, a, 0.5 * lack, back);
+	if (!a_stays)
+		lack -= displace(l, a, b_stays ? lack : 0.5 * lack, back);
 	lack -= displace(l, b, lack, n);
 	if (lack > 0)
 		displace(l, a, lack, back);
@@ -235,12 +256,12 @@ set_site(ty_ladder *l, uint32_t i, ty_point moved, double size)
 static void
 go_home(ty_ladder *l, uint32_t i)
 {
-	ty_point moved = l->sites[i].moved;
+	ty_point moved = l->sites[i].moved, rest = ty_rest(&l->sites[i]);
 	double size = l->sites[i].size, share = 0;
 
 	for (int step = 0; step < RELENT_STEPS; step++)
 	{
-		set_site(l, i, (ty_point){share * moved.x, share * moved.y}, size);
+		set_site(l, i, (ty_point){rest.x + share * (moved.x - rest.x), rest.y + share * (moved.y - rest.y)}, size);
 		if (has_room(l, i))
 			return;
 		share = 0.5 * (share + 1);
@@ -274,7 +295,8 @@ ty_relent(ty_ladder *l)
 		for (uint32_t i = 0; status == TY_OK && i < l->n; i++)
 		{
 			ty_site *s = &l->sites[i];
-			bool away = s->moved.x != 0 || s->moved.y != 0, small = s->size < 2;
+			ty_point rest = ty_rest(s);
+			bool away = s->moved.x != rest.x || s->moved.y != rest.y, small = s->size < 2;
 
 			if (ty_interrupted_at(l->env, i))
 				return TY_INTERRUPTED;
