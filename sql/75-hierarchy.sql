@@ -381,7 +381,8 @@ BEGIN
 			SELECT typify_group_key(grp) AS key, * FROM %s
 			WHERE $2 IS NULL OR typify_group_key(grp) = ANY ($2)
 		), now AS (
-			SELECT typify_group_key(grp) AS key, bit_xor(typify_building_hash(geom, id, coalesce(importance, 1))) AS state FROM %s AS b WHERE $3 GROUP BY grp
+			SELECT typify_group_key(grp) AS key, bit_xor(typify_building_hash(geom, id, coalesce(importance, 1))) AS state
+			FROM %s AS b WHERE $3 GROUP BY grp
 		)
 		SELECT array_agg(ROW(known.group_id, coalesce(known.grp, level.grp), coalesce(level.n, 0),
 			CASE WHEN $4 THEN level.exponent END, CASE WHEN $4 THEN level.psi END)::typify_hierarchy_change
@@ -476,8 +477,8 @@ BEGIN
 				typify_write_hierarchy(b.geom, b.id, $3, todo.options, (SELECT $4), b.importance, $5, todo.group_id) AS made
 			FROM %2$s AS b JOIN todo ON todo.key = typify_group_key(b.grp) GROUP BY todo.group_id
 		)
-		UPDATE %1$s AS g SET built = true, count = (made).count, state = (made).state, reach = (made).reach, extent = e.extent,
-			latitude = typify_latitude(e.extent)
+		UPDATE %1$s AS g SET built = true, count = (made).count, state = (made).state, reach = (made).reach,
+			extent = e.extent, latitude = typify_latitude(e.extent)
 		FROM made, LATERAL (SELECT ST_MakeEnvelope((made).west, (made).south, (made).east, (made).north, $6) AS extent) AS e
 		WHERE made.group_id = g.group_id', part.groups, typify_layer_source(layer, todo))
 	USING ids, given, (part.definition->>'s_u')::float8, barriers, hierarchy, typify_hierarchy_srid(part.groups::regclass);
@@ -582,32 +583,15 @@ DECLARE
 	nodes_name text := typify_layer_name(caller_schema, name);
 	parts text[] := parse_ident(nodes_name);
 	groups_name text := typify_layer_name(caller_schema, format('%I.%I', parts[1], parts[2] || '_groups'));
-	there jsonb;
+	unfinished json;
 BEGIN
-	hierarchy := to_regclass(nodes_name);
-	IF typify_layer_comment(hierarchy)->'finished' = 'false' THEN
-		-- two calls that build the same hierarchy at the same time take turns
-		EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', hierarchy);
-		there := typify_layer_comment(hierarchy);
-	END IF;
-	IF batch IS NULL THEN
-		PERFORM typify_refuse_null('batch');
-	ELSIF batch < 1 THEN
-		RAISE EXCEPTION 'batch is %, it must be at least 1', batch USING ERRCODE = 'invalid_parameter_value',
-			HINT = 'So many groups are made between two commits: leave it out for 1000.';
-	ELSIF hierarchy IS NOT NULL AND (there->'finished' = 'false'
-			AND there - 'finished' - 'typify' = definition::jsonb - 'typify') IS NOT TRUE THEN
-		RAISE EXCEPTION '% exists already', nodes_name USING ERRCODE = 'duplicate_table',
-			HINT = CASE WHEN there->'finished' = 'false'
-				THEN 'It was begun with other arguments: call with those to go on, or drop it.'
-				ELSE 'Drop it first or choose another name; typify_refresh_hierarchy brings a hierarchy up to date.' END;
-	ELSIF hierarchy IS NULL AND to_regclass(groups_name) IS NOT NULL THEN
+	SELECT relation, layer.unfinished INTO hierarchy, unfinished
+	FROM typify_layer_unfinished(nodes_name, definition, batch, 'typify_refresh_hierarchy brings a hierarchy up to date') AS layer;
+	IF hierarchy IS NULL AND to_regclass(groups_name) IS NOT NULL THEN
 		RAISE EXCEPTION '% exists already', groups_name USING ERRCODE = 'duplicate_table',
 			HINT = 'It would hold the groups: drop it first or choose another name for the hierarchy.';
 	ELSIF hierarchy IS NULL THEN
-		SELECT json_object_agg(key, value) INTO definition
-		FROM (SELECT key, value FROM json_each(definition) UNION ALL SELECT 'finished', 'false') AS pair;
-		hierarchy := typify_hierarchy_create(nodes_name, groups_name, definition);
+		hierarchy := typify_hierarchy_create(nodes_name, groups_name, unfinished);
 	END IF;
 	PERFORM typify_hierarchy_mark(hierarchy, typify_hierarchy_changes(hierarchy, NULL));
 	EXECUTE format('SELECT count(*), count(*) FILTER (WHERE built) FROM %s', groups_name) INTO groups, done;
@@ -672,7 +656,8 @@ BEGIN
 	EXECUTE format('SELECT hierarchy, groups, done FROM %1$s.typify_hierarchy_begin(current_schema(), $1, '
 		'%1$s.typify_hierarchy_definition($2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16), $17)', typify)
 	INTO built, number, done USING hierarchy, source, s_u, group_by, options, life_spans, lod200, id_column, geom_column,
-		lod200_id_column, lod200_geom_column, lod200_group_by, links, barriers, barriers_geom_column, importance_column, batch;
+		lod200_id_column, lod200_geom_column, lod200_group_by, links, barriers, barriers_geom_column, importance_column,
+		batch;
 	COMMIT;
 	LOOP
 		EXECUTE format('SELECT %s.typify_hierarchy_build($1, $2)', typify) INTO done USING built, batch;
