@@ -113,6 +113,19 @@ length_of(const ty_site_rows *rows, uint32_t row)
 	return length;
 }
 
+double
+ty_before_end(const ty_ladder *l, uint32_t i, double along)
+{
+	const ty_site_rows *rows = rows_of(l);
+	const ty_site *s = &l->sites[i];
+	double beyond = TY_LEAST_PLAY * l->gap;
+
+	if (!ty_in_row(l, i))
+		return along;
+	along = fmin(along, distance(s->home, rows->line[rows->bent[s->row + 1] - 1]) + beyond);
+	return fmax(along, -distance(s->home, rows->line[rows->bent[s->row]]) - beyond);
+}
+
 /* A place on a line, and the stretch of it that it is on: from the point `at` to the next, which is `step` long. */
 typedef struct ty_walk
 {
@@ -218,13 +231,14 @@ room_taken(const ty_ladder *l, uint32_t row)
 	return taken;
 }
 
-/* How many sites fit on the line of a row, on average as wide as they are; the ends may go out by half a gap. */
+/* How many sites fit on the line of a row, on average as wide as they are; the ends hardly go out of it. */
 static uint32_t
 places_on(const ty_ladder *l, uint32_t row, double needed)
 {
 	const ty_site_rows *rows = rows_of(l);
 	uint32_t count = rows->first[row + 1] - rows->first[row];
-	double length = length_of(rows, row) + l->gap, places = floor(length * (count - 1) / needed) + 1;
+	double length = length_of(rows, row) + 2 * TY_LEAST_PLAY * l->gap,
+		   places = floor(length * (count - 1) / needed) + 1;
 
 	return needed > length && places < count ? (uint32_t) places : count;
 }
@@ -418,17 +432,30 @@ join_in_row(ty_ladder *l, uint32_t a, uint32_t b)
 	return status;
 }
 
-/* The site is too near to what does not yield: a line where both are the same, a fixed site. */
+/* The site is too near to a line. */
+static ty_status
+give_way_to_line(ty_ladder *l, uint32_t i)
+{
+	ty_status status = ty_recall_lines(l, i);
+	ty_point n;
+	double lack;
+
+	if (status != TY_OK)
+		return status;
+	if (ty_is_across(l, i))
+		return give_up_place(l, i);
+	lack = ty_line_lack(l, i, &n);
+	return !ty_is_line_conflict(l, lack) || move_row(l, i, lack, n, ty_free_way(l, i)) ? TY_OK : give_up_place(l, i);
+}
+
+/* The site is too near to a fixed one. */
 static ty_status
 give_way(ty_ladder *l, uint32_t i, uint32_t to)
 {
 	ty_point n;
-	double lack = i == to ? ty_line_lack(l, i, &n) : ty_sites_lack(l, to, i, &n);
-	bool conflict = i == to ? ty_is_line_conflict(l, lack) : ty_is_conflict(l, lack);
+	double lack = ty_sites_lack(l, to, i, &n);
 
-	if (i == to && ty_is_across(l, i))
-		return give_up_place(l, i);
-	return !conflict || move_row(l, i, lack, n, ty_free_way(l, i)) ? TY_OK : give_up_place(l, i);
+	return !ty_is_conflict(l, lack) || move_row(l, i, lack, n, ty_free_way(l, i)) ? TY_OK : give_up_place(l, i);
 }
 
 bool
@@ -439,7 +466,9 @@ ty_resolve_rows(ty_ladder *l, uint32_t a, uint32_t b, ty_status *status)
 		return false;
 	if (a != b && ty_in_row(l, a) && ty_in_row(l, b))
 		*status = l->sites[a].row == l->sites[b].row ? join_in_row(l, a, b) : part_rows(l, a, b);
-	else if (a == b || l->sites[ty_in_row(l, a) ? b : a].fixed)
+	else if (a == b)
+		*status = give_way_to_line(l, a);
+	else if (l->sites[ty_in_row(l, a) ? b : a].fixed)
 		*status = give_way(l, ty_in_row(l, a) ? a : b, ty_in_row(l, a) ? b : a);
 	else
 		return false;

@@ -26,7 +26,7 @@ narrowest(const ty_ladder *l)
 		if (ty_is_drawn(l, (uint32_t) i))
 		{
 			least = fmin(least, l->sites[i].least.width + l->gap);
-			extent = fmax(extent, fmax(l->box[i].x, l->box[i].y));
+			extent = fmax(extent, fmax(l->body[i].box.x, l->body[i].box.y));
 		}
 	return fmax(least, extent / MOST_SQUARES);
 }
