@@ -46,7 +46,8 @@ typedef struct ty_ladder
 	ty_segments segments; /* those last found */
 	const uint32_t *list; /* [list_count] what ty_find_near found; some may be gone by now */
 	size_t list_count;
-	const uint32_t *line_list; /* [line_count] segments in reach of the same site, where it is by_line */
+	const uint32_t *line_list;	/* [line_count] segments in reach of the same site, where it is by_line */
+	const float *line_distance; /* ... from the nearest to its home on */
 	size_t line_count;
 	uint32_t *active; /* [active_count] sites that may be in a conflict: at least one of the two of each */
 	uint32_t *next;	  /* those of the next round */
