@@ -102,13 +102,14 @@ ty_status
 ty_enter_site(ty_ladder *l, uint32_t i)
 {
 	const ty_site *s = &l->sites[i];
+	double reach;
 	ty_status status;
 
 	ty_place_box(l, i);
 	l->by_line[i] = false;
-	status = ty_meet_lines(l, i, reach_of(l, i));
-	if (status == TY_OK && l->by_line[i])
-		status = ty_meet_lines(l, i, reach_of(l, i));
+	reach = reach_of(l, i);
+	l->by_line[i] = true; /* which has a longer way, off the line */
+	status = ty_meet_lines(l, i, reach, reach_of(l, i));
 	ty_vicinity_insert(&l->near, i, (ty_point){s->home.x - l->origin.x, s->home.y - l->origin.y}, reach_of(l, i));
 	return status;
 }

@@ -112,8 +112,11 @@ double ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away);
 bool ty_is_line_conflict(const ty_ladder *l, double lack);
 /* Whether a fixed site, which does not yield, is too near to a line. */
 bool ty_fixed_by_line(const ty_ladder *l, uint32_t i);
-/* Finds out which lines are in reach of the site, which reaches so far; lists them again in l->line_list. */
-ty_status ty_meet_lines(ty_ladder *l, uint32_t i, double reach);
+/*
+ * Finds out whether a line is in reach of the site, which reaches so far, and if so which are, as it then reaches farther;
+ * lists them again in l->line_list.
+ */
+ty_status ty_meet_lines(ty_ladder *l, uint32_t i, double reach, double reach_by_line);
 ty_status ty_recall_lines(ty_ladder *l, uint32_t i);
 /* Whether the site has come to lie on the other side of a line. */
 bool ty_is_across(const ty_ladder *l, uint32_t i);

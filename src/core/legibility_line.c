@@ -26,15 +26,15 @@ find_lines(ty_ladder *l, uint32_t i, double reach)
 }
 
 ty_status
-ty_meet_lines(ty_ladder *l, uint32_t i, double reach)
+ty_meet_lines(ty_ladder *l, uint32_t i, double reach, double reach_by_line)
 {
 	ty_status status = TY_OK;
 
 	l->by_line[i] = false;
 	if (l->rules->lines == NULL || l->sites[i].fixed)
 		return TY_OK;
-	status = find_lines(l, i, reach);
-	l->by_line[i] = status == TY_OK && l->line_count > 0;
+	status = find_lines(l, i, reach_by_line);
+	l->by_line[i] = status == TY_OK && l->line_count > 0 && l->line_distance[0] < reach + l->line_target;
 	return status;
 }
 
