@@ -95,11 +95,12 @@ CREATE TYPE typify_settled AS (
 	length double precision,
 	factor double precision,
 	x double precision,
-	y double precision
+	y double precision,
+	heir bigint
 );
 
 COMMENT ON TYPE typify_settled IS
-'What typify_settle did to a placeholder. drawn: false where there was no room. geom: its rectangle; NULL for one that is drawn as an outline: that is scaled by factor about the origin and then shifted by x and y. width, length: as they are now.';
+'What typify_settle did to a placeholder. drawn: false where there was no room. geom: its rectangle; NULL for one that is drawn as an outline: that is scaled by factor about the origin and then shifted by x and y. width, length: as they are now. heir: the id of the placeholder that takes over the members of one that is not drawn; NULL where all of its group are not.';
 
 CREATE FUNCTION typify_options(
 	source_scale double precision DEFAULT NULL,

@@ -611,33 +611,16 @@ SET search_path FROM CURRENT AS
 $$
 DECLARE
 	layer_name text := typify_layer_name(caller_schema, name);
+	unfinished json;
 	there jsonb;
 	kept jsonb;
 	current jsonb;
 BEGIN
-	layer := to_regclass(layer_name);
-	IF typify_layer_comment(layer)->'finished' = 'false' THEN
-		-- two calls that build the same layer at the same time take turns
-		EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
-		there := typify_layer_comment(layer);
-		kept := typify_layer_comment(typify_layer_index(layer, 'grp'));
-	END IF;
-	IF batch IS NULL THEN
-		PERFORM typify_refuse_null('batch');
-	ELSIF batch < 1 THEN
-		RAISE EXCEPTION 'batch is %, it must be at least 1', batch USING ERRCODE = 'invalid_parameter_value',
-			HINT = 'So many groups are derived between two commits: leave it out for 1000.';
-	ELSIF layer IS NOT NULL AND (there->'finished' = 'false'
-			AND there - 'finished' - 'typify' = definition::jsonb - 'typify') IS NOT TRUE THEN
-		RAISE EXCEPTION '% exists already', layer_name USING ERRCODE = 'duplicate_table',
-			HINT = CASE WHEN there->'finished' = 'false'
-				THEN 'It was begun with other arguments: call with those to go on, or drop it.'
-				ELSE 'Drop it first or choose another name; typify_refresh_scale derives a layer anew.' END;
-	ELSIF layer IS NULL THEN
-		SELECT json_object_agg(key, value) INTO definition
-		FROM (SELECT key, value FROM json_each(definition) UNION ALL SELECT 'finished', 'false') AS pair;
-		layer := typify_layer_create_table(layer_name, definition,
-			typify_layer_geometry(definition::jsonb));
+	SELECT * INTO layer, there, unfinished
+	FROM typify_layer_unfinished(layer_name, definition, batch, 'typify_refresh_scale derives a layer anew');
+	kept := typify_layer_comment(typify_layer_index(layer, 'grp'));
+	IF layer IS NULL THEN
+		layer := typify_layer_create_table(layer_name, unfinished, typify_layer_geometry(definition::jsonb));
 		IF typify_layer_is_settled(definition::jsonb) THEN
 			EXECUTE format('ALTER TABLE %s ADD COLUMN site float8[]', layer);
 		END IF;
@@ -714,16 +697,22 @@ $$
 DECLARE
 	definition jsonb := typify_layer(layer);
 	base typify_options;
+	settled typify_settled[];
 BEGIN
 	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
 	IF typify_layer_has_sites(layer) THEN
-		EXECUTE format('UPDATE %1$s AS d SET geom = typify_settled_geometry(d.geom, s), area = typify_settled_area(d.area, s), '
-			'width = (s).width, length = (s).length '
-			'FROM unnest((SELECT typify_settle(id, number::integer, member_count, ST_SRID(geom), site, (SELECT $1)) '
-			'FROM (SELECT *, dense_rank() OVER (ORDER BY typify_group_key(grp)) AS number FROM %1$s WHERE site IS NOT NULL) '
-				'AS n)) AS s WHERE (s).id = d.id', layer)
+		EXECUTE format('SELECT typify_settle(id, number::integer, member_count, ST_SRID(geom), site, (SELECT $1)) '
+			'FROM (SELECT *, dense_rank() OVER (ORDER BY typify_group_key(grp)) AS number FROM %s WHERE site IS NOT NULL) AS n', layer)
+		INTO settled
 		USING typify_barrier_lines((definition->>'barriers')::regclass, (definition->>'barriers_geom_column')::name,
 			jsonb_populate_record(base, nullif(definition->'options', 'null')), NULL);
+		EXECUTE format('UPDATE %1$s AS d SET member_count = member_count + cardinality(i.members), members = d.members || i.members '
+			'FROM (SELECT (s).heir AS id, array_agg(m ORDER BY g.id, place) AS members FROM unnest($1) AS s '
+				'JOIN %1$s AS g ON g.id = (s).id CROSS JOIN LATERAL unnest(g.members) WITH ORDINALITY AS m (m, place) '
+				'WHERE (s).heir IS NOT NULL GROUP BY (s).heir) AS i WHERE i.id = d.id', layer) USING settled;
+		EXECUTE format('DELETE FROM %s AS d USING unnest($1) AS s WHERE (s).id = d.id AND (s).heir IS NOT NULL', layer) USING settled;
+		EXECUTE format('UPDATE %s AS d SET geom = typify_settled_geometry(d.geom, s), area = typify_settled_area(d.area, s), '
+			'width = (s).width, length = (s).length FROM unnest($1) AS s WHERE (s).id = d.id', layer) USING settled;
 	END IF;
 	PERFORM typify_layer_keep_shares(layer,
 		nullif(typify_layer_comment(typify_layer_index(layer, 'grp')) - 'plan' - 'state', '{}'));

@@ -19,6 +19,7 @@
 #include "geometry.h"
 #include "hierarchy.h"
 #include "layer.h"
+#include "node_table.h"
 #include "options.h"
 #include "partial.h"
 #include "progress.h"
@@ -41,8 +42,15 @@ static const row_layout placeholders_layout = {.id = 2, .parameters = 3, .parame
 static const row_layout barred_layout = {.id = 2, .parameters = 3, .parameter_count = 4, .importance = 7};
 static const row_layout hierarchy_layout = {
 	.id = 2, .parameters = 2, .parameter_count = 3, .importance = 5, .without_scale = true};
-static const row_layout barred_hierarchy_layout = {
+static const row_layout write_layout = {
 	.id = 2, .parameters = 2, .parameter_count = 4, .importance = 6, .without_scale = true};
+
+/* arguments of typify_write_hierarchy's transition function that say where its nodes go */
+enum
+{
+	WRITE_HIERARCHY = 7,
+	WRITE_GROUP_ID
+};
 
 /* The context of states; the one preamble of all five functions. */
 static MemoryContext
@@ -139,7 +147,7 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 
 /* What is not as asked for. */
 static void
-warn_of_result(const ty_state *s, const ty_result *result)
+warn_of_result(const ty_result *result)
 {
 	size_t undrawn = result->undrawn - result->hidden;
 
@@ -156,13 +164,6 @@ warn_of_result(const ty_state *s, const ty_result *result)
 							  "there is no room for %zu placeholders, which are not drawn", result->hidden,
 							  result->hidden),
 				errhint("Use a smaller min_side, min_gap or barrier_width, or fewer barriers."));
-	if (result->collisions > 0)
-		ereport(WARNING,
-				errmsg_plural("%zu pair of kept buildings is nearer to each other than min_gap",
-							  "%zu pairs of kept buildings are nearer to each other than min_gap", result->collisions,
-							  result->collisions),
-				errdetail("The first are %lld and %lld.", (long long) s->buildings[result->colliding[0]].id,
-						  (long long) s->buildings[result->colliding[1]].id));
 }
 
 static ty_input
@@ -177,7 +178,7 @@ input_of(const ty_state *s)
 
 /* Typifies the group; the result is of the current context. The state stays as it is. */
 static void
-state_typify(const ty_state *s, ty_result *result)
+state_typify_quietly(const ty_state *s, ty_result *result)
 {
 	ty_input input = input_of(s);
 	ty_parameters parameters = s->parameters;
@@ -188,7 +189,18 @@ state_typify(const ty_state *s, ty_result *result)
 		ty_check_outlines(result, s->outlines, s->geometry_type);
 	if (s->count >= LARGE_GROUP)
 		ty_trim_memory();
-	warn_of_result(s, result);
+	warn_of_result(result);
+}
+
+/* The same, with the warning of kept buildings in each other's way. */
+static void
+state_typify(const ty_state *s, ty_result *result)
+{
+	const ty_collisions *c = &result->collisions;
+
+	state_typify_quietly(s, result);
+	ty_warn_of_collisions(c, s->buildings[c->first_pair[0]].id, s->buildings[c->first_pair[1]].id,
+						  s->buildings[c->first_beside].id);
 }
 
 /* Numbers that sort as the ids do. */
@@ -407,11 +419,22 @@ typify_hierarchy_transition(PG_FUNCTION_ARGS)
 	return add_row(fcinfo, &hierarchy_layout);
 }
 
-PG_FUNCTION_INFO_V1(typify_barred_hierarchy_transition);
+PG_FUNCTION_INFO_V1(typify_write_hierarchy_transition);
 Datum
-typify_barred_hierarchy_transition(PG_FUNCTION_ARGS)
+typify_write_hierarchy_transition(PG_FUNCTION_ARGS)
 {
-	return add_row(fcinfo, &barred_hierarchy_layout);
+	ty_state *s;
+
+	if (PG_ARGISNULL(WRITE_HIERARCHY))
+		ty_refuse_null("hierarchy");
+	if (PG_ARGISNULL(WRITE_GROUP_ID))
+		ty_refuse_null("group_id");
+	s = (ty_state *) DatumGetPointer(add_row(fcinfo, &write_layout));
+	if (s == NULL)
+		PG_RETURN_NULL();
+	s->hierarchy = PG_GETARG_OID(WRITE_HIERARCHY);
+	s->group_id = PG_GETARG_INT32(WRITE_GROUP_ID);
+	PG_RETURN_POINTER(s);
 }
 
 /* what is looked for among the arguments of the workers' aggregate */
@@ -549,7 +572,8 @@ typify_sites_final(PG_FUNCTION_ARGS)
 	if (s == NULL)
 		PG_RETURN_NULL();
 	check_ids(s);
-	state_typify(s, &result);
+	/* of these typify_settle tells, once for all groups */
+	state_typify_quietly(s, &result);
 	parameters = s->parameters;
 	ty_bring_to_ground(&parameters, s->metres_per_unit);
 	array = placeholder_array(fcinfo, s, &result, &parameters);
@@ -570,4 +594,19 @@ typify_hierarchy_final(PG_FUNCTION_ARGS)
 	check_ids(s);
 	input = input_of(s);
 	PG_RETURN_DATUM(ty_node_array(fcinfo, &input, &s->parameters));
+}
+
+PG_FUNCTION_INFO_V1(typify_write_hierarchy_final);
+Datum
+typify_write_hierarchy_final(PG_FUNCTION_ARGS)
+{
+	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
+	ty_input input;
+
+	aggregate_context(fcinfo);
+	if (s == NULL)
+		PG_RETURN_NULL();
+	check_ids(s);
+	input = input_of(s);
+	PG_RETURN_DATUM(ty_write_nodes(fcinfo, s, &input));
 }
