@@ -611,33 +611,16 @@ SET search_path FROM CURRENT AS
 $$
 DECLARE
 	layer_name text := typify_layer_name(caller_schema, name);
+	unfinished json;
 	there jsonb;
 	kept jsonb;
 	current jsonb;
 BEGIN
-	layer := to_regclass(layer_name);
-	IF typify_layer_comment(layer)->'finished' = 'false' THEN
-		-- two calls that build the same layer at the same time take turns
-		EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
-		there := typify_layer_comment(layer);
-		kept := typify_layer_comment(typify_layer_index(layer, 'grp'));
-	END IF;
-	IF batch IS NULL THEN
-		PERFORM typify_refuse_null('batch');
-	ELSIF batch < 1 THEN
-		RAISE EXCEPTION 'batch is %, it must be at least 1', batch USING ERRCODE = 'invalid_parameter_value',
-			HINT = 'So many groups are derived between two commits: leave it out for 1000.';
-	ELSIF layer IS NOT NULL AND (there->'finished' = 'false'
-			AND there - 'finished' - 'typify' = definition::jsonb - 'typify') IS NOT TRUE THEN
-		RAISE EXCEPTION '% exists already', layer_name USING ERRCODE = 'duplicate_table',
-			HINT = CASE WHEN there->'finished' = 'false'
-				THEN 'It was begun with other arguments: call with those to go on, or drop it.'
-				ELSE 'Drop it first or choose another name; typify_refresh_scale derives a layer anew.' END;
-	ELSIF layer IS NULL THEN
-		SELECT json_object_agg(key, value) INTO definition
-		FROM (SELECT key, value FROM json_each(definition) UNION ALL SELECT 'finished', 'false') AS pair;
-		layer := typify_layer_create_table(layer_name, definition,
-			typify_layer_geometry(definition::jsonb));
+	SELECT * INTO layer, there, unfinished
+	FROM typify_layer_unfinished(layer_name, definition, batch, 'typify_refresh_scale derives a layer anew');
+	kept := typify_layer_comment(typify_layer_index(layer, 'grp'));
+	IF layer IS NULL THEN
+		layer := typify_layer_create_table(layer_name, unfinished, typify_layer_geometry(definition::jsonb));
 		IF typify_layer_is_settled(definition::jsonb) THEN
 			EXECUTE format('ALTER TABLE %s ADD COLUMN site float8[]', layer);
 		END IF;

@@ -102,42 +102,60 @@ CREATE AGGREGATE typify_hierarchy(
 COMMENT ON AGGREGATE typify_hierarchy(geometry, bigint, double precision, typify_options, double precision) IS
 'The hierarchy of the buildings of a group: every vertex that there is at any scale, with its life span, as an array of typify_node in the order of their numbers. Those alive at a scale are the placeholders that typify_placeholders gives at that scale, exactly; typify_at draws them from a table that typify_build_hierarchy makes. The same bytes for any order of rows, serial or parallel. NULL for a group without a usable row. id: a key of the building inside its group. s_u: density control in 0 .. 1. options: see typify_options; NULL sets none. importance: of the building, as in typify_placeholders; Infinity keeps it. A row whose geometry is NULL or EMPTY is passed over. Errors: as of typify_placeholders; 22023 for options that make the result depend on one scale: count, min_distance, the black-white rule, min_area, keep_area; 0A000 for shapes with outlines; 54000 above 1 GB, four million buildings in a group.';
 
-CREATE FUNCTION typify_barred_hierarchy_transition(internal, geometry, bigint, double precision, typify_options, geometry,
-	double precision)
+CREATE TYPE typify_hierarchy_made AS (
+	count bigint,
+	state bigint,
+	reach double precision,
+	west double precision,
+	south double precision,
+	east double precision,
+	north double precision
+);
+COMMENT ON TYPE typify_hierarchy_made IS
+'What typify_write_hierarchy wrote of a group. count: of its buildings; state: typify_building_hash of each, combined by bit_xor; reach: the greatest of its nodes (typify_reach); west to north: the box of its vertices.';
+
+CREATE FUNCTION typify_write_hierarchy_transition(internal, geometry, bigint, double precision, typify_options, geometry,
+	double precision, regclass, integer)
 RETURNS internal
 AS 'MODULE_PATHNAME'
-LANGUAGE C IMMUTABLE PARALLEL SAFE COST 10;
-COMMENT ON FUNCTION typify_barred_hierarchy_transition(internal, geometry, bigint, double precision, typify_options,
-	geometry, double precision) IS
-'Support of typify_barred_hierarchy: measures a building and adds it to its group.';
+LANGUAGE C;
+COMMENT ON FUNCTION typify_write_hierarchy_transition(internal, geometry, bigint, double precision, typify_options,
+	geometry, double precision, regclass, integer) IS
+'Support of typify_write_hierarchy: measures a building and adds it to its group.';
 
-CREATE AGGREGATE typify_barred_hierarchy(
+CREATE FUNCTION typify_write_hierarchy_final(internal)
+RETURNS typify_hierarchy_made
+AS 'MODULE_PATHNAME'
+LANGUAGE C COST 10000;
+COMMENT ON FUNCTION typify_write_hierarchy_final(internal) IS
+'Support of typify_write_hierarchy: merges the buildings of a group down to one and writes the nodes.';
+
+CREATE AGGREGATE typify_write_hierarchy(
 	geom geometry,
 	id bigint,
 	s_u double precision,
 	options typify_options,
 	barriers geometry,
-	importance double precision)
+	importance double precision,
+	hierarchy regclass,
+	group_id integer)
 (
-	SFUNC = typify_barred_hierarchy_transition,
+	SFUNC = typify_write_hierarchy_transition,
 	STYPE = internal,
 	SSPACE = 1024,
-	FINALFUNC = typify_hierarchy_final,
-	COMBINEFUNC = typify_combine,
-	SERIALFUNC = typify_serialize,
-	DESERIALFUNC = typify_deserialize,
-	PARALLEL = SAFE
+	FINALFUNC = typify_write_hierarchy_final,
+	FINALFUNC_MODIFY = READ_WRITE
 );
-COMMENT ON AGGREGATE typify_barred_hierarchy(geometry, bigint, double precision, typify_options, geometry,
-	double precision) IS
-'typify_hierarchy with barriers as an argument of its own, so that options can differ from group to group without a copy of the barriers in each. For wrappers; barriers as in typify_options.';
+COMMENT ON AGGREGATE typify_write_hierarchy(geometry, bigint, double precision, typify_options, geometry, double precision,
+	regclass, integer) IS
+'Support of typify_build_hierarchy: typify_hierarchy with barriers as an argument of its own, which puts the nodes into the table of a hierarchy, as those of this group, instead of returning them. hierarchy, group_id: the same for all buildings of a group. Needs INSERT on the table. Errors: as of typify_hierarchy but for the size of the result; 22004 for NULL as hierarchy or group_id; 42809 for a table whose columns are not those of a hierarchy; 0A000 for one with triggers on INSERT, row-level security, CHECK constraints or further columns that do not take NULL, which rows are written past; 25006 in a transaction that only reads.';
 
-CREATE FUNCTION typify_building_hash(geom geometry, id bigint)
+CREATE FUNCTION typify_building_hash(geom geometry, id bigint, importance double precision)
 RETURNS bigint
 AS 'MODULE_PATHNAME'
 LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE COST 10;
-COMMENT ON FUNCTION typify_building_hash(geometry, bigint) IS
-'A hash of what a hierarchy takes from a building: its id, centroid, area and rectangle. NULL for EMPTY. Errors: as of typify for geometries.';
+COMMENT ON FUNCTION typify_building_hash(geometry, bigint, double precision) IS
+'A hash of what a hierarchy takes from a building: its id, centroid, area and rectangle, and its importance. NULL for EMPTY. Errors: as of typify for geometries.';
 
 CREATE FUNCTION typify_leaf_hash(representative bigint, x double precision, y double precision, area double precision,
 	ratio double precision, ux double precision, uy double precision)
@@ -146,7 +164,7 @@ AS 'MODULE_PATHNAME'
 LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE;
 COMMENT ON FUNCTION typify_leaf_hash(bigint, double precision, double precision, double precision, double precision,
 	double precision, double precision) IS
-'What typify_building_hash says of the building of which this leaf was made.';
+'What typify_building_hash says of a building of importance 1 of which this leaf was made.';
 
 CREATE FUNCTION typify_reach(area double precision, ratio double precision, psi double precision)
 RETURNS double precision
@@ -155,14 +173,14 @@ LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE;
 COMMENT ON FUNCTION typify_reach(double precision, double precision, double precision) IS
 'How far the rectangle of a node reaches from its vertex before it is enlarged, half its diagonal: what typify_place and typify_search sort by size. More for a psi below 0.75, which is enlarged more.';
 
-CREATE FUNCTION typify_place(x double precision, y double precision, reach double precision, scale_to double precision,
-	source_scale double precision)
+CREATE FUNCTION typify_place(x double precision, y double precision, reach double precision,
+	scale_from double precision, scale_to double precision, source_scale double precision)
 RETURNS point
 AS 'MODULE_PATHNAME'
 LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE;
 COMMENT ON FUNCTION typify_place(double precision, double precision, double precision, double precision,
-	double precision) IS
-'Where a node stands in the index of a hierarchy: its vertex, moved by 2^28 units in x for each band of scale_to (two bands for a doubling of the scale, the last one for roots) and in y for each class of its reach.';
+	double precision, double precision) IS
+'Where a node stands in the index of a hierarchy: its vertex, moved by 2^28 units in x for each band of scale_to (two bands for a doubling of the scale, the last one for roots) and in y for each class of its reach and, within that, of how many bands its life span lasts.';
 
 CREATE FUNCTION typify_search(box box, scale_from double precision, scale_to double precision, reach double precision,
 	top double precision, source_scale double precision, lod200_scale double precision, min_side double precision)
@@ -188,7 +206,8 @@ COMMENT ON FUNCTION typify_node_placeholder(bigint, double precision, double pre
 -- instead of scale and allocation, so that what reads and calibrates the tables of a layer does so here.
 CREATE FUNCTION typify_hierarchy_definition(source regclass, s_u double precision, group_by name,
 	options typify_options, life_spans text, lod200 regclass, id_column name, geom_column name, lod200_id_column name,
-	lod200_geom_column name, lod200_group_by name, links regclass, barriers regclass, barriers_geom_column name)
+	lod200_geom_column name, lod200_group_by name, links regclass, barriers regclass, barriers_geom_column name,
+	importance_column name)
 RETURNS json
 LANGUAGE plpgsql STABLE PARALLEL SAFE
 SET search_path FROM CURRENT
@@ -211,7 +230,7 @@ BEGIN
 	END IF;
 	layer := typify_layer_definition(source, lod200, coalesce((options).source_scale, 25000), s_u, group_by, options,
 		'each_group', id_column, geom_column, lod200_id_column, lod200_geom_column, lod200_group_by, links, barriers,
-		barriers_geom_column, NULL);
+		barriers_geom_column, importance_column);
 	PERFORM typify_hierarchy(ST_SetSRID('POINT(0 0)'::geometry, coalesce(ST_SRID((options).barriers), 0)), 0, s_u, options);
 	RETURN (SELECT json_object_agg(CASE key WHEN 'lod25' THEN 'source' WHEN 'allocation' THEN 'life_spans' ELSE key END,
 			CASE key WHEN 'allocation' THEN to_json(life_spans) ELSE value END)
@@ -219,7 +238,7 @@ BEGIN
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_definition(regclass, double precision, name, typify_options, text, regclass, name,
-	name, name, name, name, regclass, regclass, name) IS
+	name, name, name, name, regclass, regclass, name, name) IS
 'How a hierarchy is made, as its comment says it: a JSON object of the version of typify and the arguments of typify_build_hierarchy by their names. Errors: as of typify_layer_definition and typify_hierarchy; 22023 for other life_spans.';
 
 CREATE FUNCTION typify_hierarchy_layer(definition jsonb) RETURNS jsonb
@@ -275,7 +294,13 @@ CREATE FUNCTION typify_hierarchy_create(nodes text, groups text, definition json
 LANGUAGE plpgsql
 SET search_path FROM CURRENT AS
 $$
+DECLARE
+	layer jsonb := typify_hierarchy_layer(definition::jsonb);
+	extent_type text;
 BEGIN
+	-- by any building: whether all have its SRID is looked at when they are read (typify_plan)
+	EXECUTE format('SELECT format(''geometry(Polygon, %%s)'', ST_SRID(geom)) FROM %s AS b LIMIT 1', typify_layer_source(layer))
+	INTO extent_type;
 	EXECUTE format('CREATE TABLE %s (group_id integer NOT NULL, node integer NOT NULL, parent integer, '
 		'kept boolean NOT NULL, representative bigint NOT NULL, member_count integer NOT NULL, first_leaf integer NOT NULL, '
 		'x float8 NOT NULL, y float8 NOT NULL, area float8 NOT NULL, ratio float8 NOT NULL, ux float8 NOT NULL, '
@@ -283,7 +308,7 @@ BEGIN
 		'place point NOT NULL)', nodes);
 	EXECUTE format('CREATE TABLE %s (group_id integer PRIMARY KEY, grp text, count bigint NOT NULL, exponent float8, '
 		'psi float8, built boolean NOT NULL DEFAULT false, state bigint, reach float8, extent %s, latitude float8)', groups,
-		typify_layer_geometry(typify_hierarchy_layer(definition::jsonb)));
+		coalesce(extent_type, typify_layer_geometry(layer)));
 	EXECUTE format('COMMENT ON TABLE %s IS %L', nodes, definition);
 	EXECUTE format('COMMENT ON TABLE %s IS %L', groups, format('The groups of %s.', nodes));
 	RETURN nodes::regclass;
@@ -356,7 +381,8 @@ BEGIN
 			SELECT typify_group_key(grp) AS key, * FROM %s
 			WHERE $2 IS NULL OR typify_group_key(grp) = ANY ($2)
 		), now AS (
-			SELECT typify_group_key(grp) AS key, bit_xor(typify_building_hash(geom, id)) AS state FROM %s AS b WHERE $3 GROUP BY grp
+			SELECT typify_group_key(grp) AS key, bit_xor(typify_building_hash(geom, id, coalesce(importance, 1))) AS state
+			FROM %s AS b WHERE $3 GROUP BY grp
 		)
 		SELECT array_agg(ROW(known.group_id, coalesce(known.grp, level.grp), coalesce(level.n, 0),
 			CASE WHEN $4 THEN level.exponent END, CASE WHEN $4 THEN level.psi END)::typify_hierarchy_change
@@ -392,39 +418,6 @@ END
 $$;
 COMMENT ON FUNCTION typify_latitude(geometry) IS
 'The latitude in degrees of the middle of the box of a geometry; NULL where it has none, as with an unknown SRID.';
-
-CREATE FUNCTION typify_hierarchy_note(hierarchy regclass) RETURNS void
-LANGUAGE plpgsql
-SET search_path FROM CURRENT
-SET jit = off AS
-$$
-DECLARE
-	part record := typify_hierarchy_parts(hierarchy);
-	ids integer[];
-BEGIN
-	EXECUTE format('SELECT array_agg(group_id) FROM %s WHERE built AND state IS NULL', part.groups) INTO ids;
-	IF ids IS NULL THEN
-		RETURN;
-	END IF;
-	EXECUTE format(
-		'WITH made AS (
-			SELECT n.group_id, count(*) FILTER (WHERE member_count = 1) AS count,
-				bit_xor(typify_leaf_hash(representative, x, y, area, ratio, ux, uy)) FILTER (WHERE member_count = 1) AS state,
-				max(typify_reach(area, ratio, coalesce(g.psi, $2, 0.75))) AS reach,
-				min(x) AS west, min(y) AS south, max(x) AS east, max(y) AS north
-			FROM %1$s AS n JOIN %2$s AS g USING (group_id) WHERE n.group_id = ANY ($1) GROUP BY n.group_id
-		)
-		UPDATE %2$s AS g SET count = made.count, state = made.state, reach = made.reach, extent = made.extent,
-			latitude = typify_latitude(made.extent)
-		FROM (SELECT *, ST_MakeEnvelope(west, south, east, north, $3) AS extent FROM made) AS made
-		WHERE made.group_id = g.group_id', part.nodes, part.groups)
-	USING ids, (part.definition->'options'->>'psi')::float8, typify_hierarchy_srid(part.groups::regclass);
-	-- what had lost its buildings by the time it was to be built
-	EXECUTE format('DELETE FROM %s WHERE group_id = ANY ($1) AND state IS NULL', part.groups) USING ids;
-END
-$$;
-COMMENT ON FUNCTION typify_hierarchy_note(regclass) IS
-'Writes down of every group whose nodes are new what they were made of: count, state, reach, extent and latitude. A group without buildings is removed.';
 
 CREATE FUNCTION typify_hierarchy_mark(hierarchy regclass, changes typify_hierarchy_change[]) RETURNS void
 LANGUAGE plpgsql
@@ -464,35 +457,37 @@ DECLARE
 	layer jsonb := typify_hierarchy_layer(part.definition);
 	given typify_options := typify_hierarchy_options(part.definition);
 	todo text[];
+	around geometry;
 	barriers geometry;
 BEGIN
 	EXECUTE format('SELECT array_agg(grp) FROM %s WHERE group_id = ANY ($1)', part.groups) INTO todo USING ids;
+	IF layer->>'barriers' IS NOT NULL THEN
+		around := typify_surroundings(typify_layer_source(layer, todo), todo, (layer->>'scale')::float8);
+	END IF;
 	barriers := typify_barrier_lines((layer->>'barriers')::regclass, (layer->>'barriers_geom_column')::name, given, NULL,
-		typify_surroundings(typify_layer_source(layer, todo), todo, (layer->>'scale')::float8));
+		around);
 	given := typify_options_without_barriers(given);
 	EXECUTE format(
 		'WITH todo AS (
-			SELECT group_id, typify_group_key(grp) AS key, coalesce(psi, ($2).psi, 0.75) AS psi, CASE
-				WHEN exponent IS NULL AND psi IS NULL THEN $2
-				ELSE typify_options_with($2, exponent, psi, NULL) END AS options
-			FROM %2$s WHERE group_id = ANY ($1) OFFSET 0
+			SELECT group_id, typify_group_key(grp) AS key, CASE WHEN exponent IS NULL AND psi IS NULL THEN $2
+				ELSE typify_options_with($2, exponent, coalesce(psi, ($2).psi), NULL) END AS options
+			FROM %1$s WHERE group_id = ANY ($1) OFFSET 0
+		), made AS MATERIALIZED (
+			SELECT todo.group_id,
+				typify_write_hierarchy(b.geom, b.id, $3, todo.options, (SELECT $4), b.importance, $5, todo.group_id) AS made
+			FROM %2$s AS b JOIN todo ON todo.key = typify_group_key(b.grp) GROUP BY todo.group_id
 		)
-		INSERT INTO %1$s
-		SELECT group_id, (n).node, (n).parent, (n).kept, (n).representative, (n).member_count, (n).first_leaf, (n).x, (n).y,
-			(n).area, (n).ratio, (n).ux, (n).uy, (n).cost, (n).scale_from, (n).scale_to,
-			typify_place((n).x, (n).y, typify_reach((n).area, (n).ratio, psi), (n).scale_to, $4)
-		FROM (
-			SELECT todo.group_id, todo.psi, unnest(%4$s) AS n
-			FROM %3$s AS b JOIN todo ON todo.key = typify_group_key(b.grp) GROUP BY todo.group_id, todo.psi
-		) AS one', part.nodes, part.groups, typify_layer_source(layer, todo), CASE WHEN barriers IS NULL
-			THEN 'typify_hierarchy(b.geom, b.id, $3, todo.options)'
-			ELSE 'typify_barred_hierarchy(b.geom, b.id, $3, todo.options, (SELECT $5), NULL)' END)
-	USING ids, given, (part.definition->>'s_u')::float8, (layer->>'scale')::float8, barriers;
-	EXECUTE format('UPDATE %s SET built = true WHERE group_id = ANY ($1)', part.groups) USING ids;
+		UPDATE %1$s AS g SET built = true, count = (made).count, state = (made).state, reach = (made).reach,
+			extent = e.extent, latitude = typify_latitude(e.extent)
+		FROM made, LATERAL (SELECT ST_MakeEnvelope((made).west, (made).south, (made).east, (made).north, $6) AS extent) AS e
+		WHERE made.group_id = g.group_id', part.groups, typify_layer_source(layer, todo))
+	USING ids, given, (part.definition->>'s_u')::float8, barriers, hierarchy, typify_hierarchy_srid(part.groups::regclass);
+	-- what has lost its buildings since it was to be built
+	EXECUTE format('DELETE FROM %s WHERE group_id = ANY ($1) AND NOT built', part.groups) USING ids;
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_fill(regclass, integer[]) IS
-'Makes the nodes of these groups, which have none. What they are made of is for typify_hierarchy_note to write down.';
+'Makes the nodes of these groups, which have none, and writes down of each what they were made of: count, state, reach, extent and latitude. A group without buildings is removed.';
 
 -- One ranking over all groups: the next merge is that with the smallest running maximum of cost, of equal ones that in
 -- the first group by the bytes of its name, the NULL group last. What they leave is what the law leaves of all.
@@ -520,7 +515,8 @@ BEGIN
 			LEFT JOIN step AS dead ON dead.group_id = n.group_id AND dead.node = n.parent
 		)
 		UPDATE %1$s AS n SET scale_from = span.scale_from, scale_to = span.scale_to,
-			place = typify_place(x, y, typify_reach(area, ratio, span.psi), span.scale_to, $2)
+			place = typify_place(x, y, typify_reach(area, ratio, span.psi), span.scale_from, span.scale_to,
+				$2)
 		FROM span WHERE span.group_id = n.group_id AND span.node = n.node
 			AND (n.scale_from, n.scale_to) IS DISTINCT FROM (span.scale_from, span.scale_to)',
 		part.nodes, part.groups) USING given, source_scale;
@@ -543,7 +539,6 @@ BEGIN
 	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', typify_table_name(hierarchy, 'hierarchy'));
 	part := typify_hierarchy_parts(hierarchy);
 	ranked := part.definition->>'life_spans' = 'ranked';
-	PERFORM typify_hierarchy_note(hierarchy);
 	IF (SELECT bool_or(indisprimary) FROM pg_index WHERE indrelid = hierarchy) IS NOT TRUE THEN
 		EXECUTE format('ALTER TABLE %s ADD PRIMARY KEY (group_id, node)', part.nodes);
 	END IF;
@@ -577,7 +572,7 @@ BEGIN
 END
 $$;
 COMMENT ON FUNCTION typify_hierarchy_complete(regclass) IS
-'What a hierarchy gets when its nodes are there: what they were made of (typify_hierarchy_note), its key, ranked life spans, the index by place, statistics, and a comment without "finished" that says what a look-up must know of all nodes: the greatest reach (typify_reach), and as top a scale that no scale_to but Infinity exceeds; and barriers_state (typify_hierarchy_barriers).';
+'What a hierarchy gets when its nodes are there: its key, ranked life spans, the index by place, statistics, and a comment without "finished" that says what a look-up must know of all nodes: the greatest reach (typify_reach), and as top a scale that no scale_to but Infinity exceeds; and barriers_state (typify_hierarchy_barriers).';
 
 CREATE FUNCTION typify_hierarchy_begin(caller_schema name, name text, definition json, batch integer,
 	OUT hierarchy regclass, OUT groups integer, OUT done integer)
@@ -588,34 +583,16 @@ DECLARE
 	nodes_name text := typify_layer_name(caller_schema, name);
 	parts text[] := parse_ident(nodes_name);
 	groups_name text := typify_layer_name(caller_schema, format('%I.%I', parts[1], parts[2] || '_groups'));
-	there jsonb;
+	unfinished json;
 BEGIN
-	hierarchy := to_regclass(nodes_name);
-	IF typify_layer_comment(hierarchy)->'finished' = 'false' THEN
-		-- two calls that build the same hierarchy at the same time take turns
-		EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', hierarchy);
-		there := typify_layer_comment(hierarchy);
-	END IF;
-	IF batch IS NULL THEN
-		PERFORM typify_refuse_null('batch');
-	ELSIF batch < 1 THEN
-		RAISE EXCEPTION 'batch is %, it must be at least 1', batch USING ERRCODE = 'invalid_parameter_value',
-			HINT = 'So many groups are made between two commits: leave it out for 1000.';
-	ELSIF hierarchy IS NOT NULL AND (there->'finished' = 'false'
-			AND there - 'finished' - 'typify' = definition::jsonb - 'typify') IS NOT TRUE THEN
-		RAISE EXCEPTION '% exists already', nodes_name USING ERRCODE = 'duplicate_table',
-			HINT = CASE WHEN there->'finished' = 'false'
-				THEN 'It was begun with other arguments: call with those to go on, or drop it.'
-				ELSE 'Drop it first or choose another name; typify_refresh_hierarchy brings a hierarchy up to date.' END;
-	ELSIF hierarchy IS NULL AND to_regclass(groups_name) IS NOT NULL THEN
+	SELECT relation, layer.unfinished INTO hierarchy, unfinished
+	FROM typify_layer_unfinished(nodes_name, definition, batch, 'typify_refresh_hierarchy brings a hierarchy up to date') AS layer;
+	IF hierarchy IS NULL AND to_regclass(groups_name) IS NOT NULL THEN
 		RAISE EXCEPTION '% exists already', groups_name USING ERRCODE = 'duplicate_table',
 			HINT = 'It would hold the groups: drop it first or choose another name for the hierarchy.';
 	ELSIF hierarchy IS NULL THEN
-		SELECT json_object_agg(key, value) INTO definition
-		FROM (SELECT key, value FROM json_each(definition) UNION ALL SELECT 'finished', 'false') AS pair;
-		hierarchy := typify_hierarchy_create(nodes_name, groups_name, definition);
+		hierarchy := typify_hierarchy_create(nodes_name, groups_name, unfinished);
 	END IF;
-	PERFORM typify_hierarchy_note(hierarchy);
 	PERFORM typify_hierarchy_mark(hierarchy, typify_hierarchy_changes(hierarchy, NULL));
 	EXECUTE format('SELECT count(*), count(*) FILTER (WHERE built) FROM %s', groups_name) INTO groups, done;
 END
@@ -666,7 +643,8 @@ CREATE PROCEDURE typify_build_hierarchy(
 	links regclass DEFAULT NULL,
 	barriers regclass DEFAULT NULL,
 	barriers_geom_column name DEFAULT 'geom',
-	batch integer DEFAULT 1000)
+	batch integer DEFAULT 1000,
+	importance_column name DEFAULT NULL)
 LANGUAGE plpgsql AS
 $$
 DECLARE
@@ -676,9 +654,10 @@ DECLARE
 	done integer;
 BEGIN
 	EXECUTE format('SELECT hierarchy, groups, done FROM %1$s.typify_hierarchy_begin(current_schema(), $1, '
-		'%1$s.typify_hierarchy_definition($2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15), $16)', typify)
+		'%1$s.typify_hierarchy_definition($2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16), $17)', typify)
 	INTO built, number, done USING hierarchy, source, s_u, group_by, options, life_spans, lod200, id_column, geom_column,
-		lod200_id_column, lod200_geom_column, lod200_group_by, links, barriers, barriers_geom_column, batch;
+		lod200_id_column, lod200_geom_column, lod200_group_by, links, barriers, barriers_geom_column, importance_column,
+		batch;
 	COMMIT;
 	LOOP
 		EXECUTE format('SELECT %s.typify_hierarchy_build($1, $2)', typify) INTO done USING built, batch;
@@ -691,11 +670,12 @@ BEGIN
 END
 $$;
 COMMENT ON PROCEDURE typify_build_hierarchy(text, regclass, double precision, name, typify_options, text, regclass, name,
-	name, name, name, name, regclass, regclass, name, integer) IS
+	name, name, name, name, regclass, regclass, name, integer, name) IS
 'Builds the hierarchy of a table of buildings, from which typify_at takes any scale: a table of that name with a row for every node of every group (group_id, the fields of typify_node, and place, by which they are found), and a companion, the name with _groups behind it, with a row for every group. Its comment says in JSON how it was made.
 source: a table, view, materialized, partitioned or foreign table. group_by: a column of it, of any type; each of its values is a group, NULL too. s_u, options: as of typify_hierarchy.
 life_spans: each_group gives every group its own count at a scale, as typify_placeholders does, exactly. ranked divides the count of the whole table: what is closest in all groups merges first, so that dense groups are thinned more; a group keeps at least one.
 lod200: a coarse level, by which exponent and psi of each group are calibrated as typify_derive does; it and the arguments after it are those of typify_derive.
 barriers: lines that nothing is merged across, as in typify_derive.
-batch groups at a time are built, then a COMMIT and a NOTICE that says how many are done. After a stop (cancelled, failed, connection lost) the tables stay with what is done and "finished": false in the comment; calling with the same arguments goes on, with groups anew that changed meanwhile. CALL it outside a transaction block (2D000 inside).
-Errors: as of typify_hierarchy and typify_derive; 22023 for a batch below 1, other life_spans, and min_gap (use typify_create_scale); 42P07 for a name that exists; those of typify_create_scale for a name that cannot be.';
+importance_column: a column of source with numbers, the importance of each building as typify_hierarchy takes it: ''Infinity'' keeps it in place and in size at every scale.
+batch groups at a time are built, then a COMMIT and a NOTICE that says how many are done. After a stop (cancelled, failed, connection lost) the tables stay with what is done and "finished": false in the comment; calling with the same arguments goes on, with groups anew that changed meanwhile. Rows are written as COPY does, so the table may have further indexes, and columns that take NULL, but no triggers on INSERT, row-level security or CHECK constraints (0A000). CALL it outside a transaction block (2D000 inside).
+Errors: as of typify_hierarchy, but for the size of its result, and typify_derive; 22023 for a batch below 1, other life_spans, and min_gap (use typify_create_scale); 42P07 for a name that exists; those of typify_create_scale for a name that cannot be.';

@@ -214,12 +214,12 @@ BEGIN ATOMIC
 			FROM (
 				SELECT n.representative, n.member_count, typify_tile_node(n.representative, n.x, n.y, n.area, n.ratio,
 					n.ux, n.uy, n.member_count, n.kept, g.scale, %7$s, g.psi, %8$s, %6$s, frame) AS geom
-				FROM unnest(typify_search(box(point(ST_XMin(box), ST_YMin(box)), point(ST_XMax(box), ST_YMax(box))),
+				FROM %1$s AS n JOIN unnest(near.ids, near.psis, near.scales) AS g (group_id, psi, scale) USING (group_id)
+				WHERE n.place <@ ANY (typify_search(box(point(ST_XMin(box), ST_YMin(box)), point(ST_XMax(box), ST_YMax(box))),
 						near.low, near.high, (known ->> ''reach'')::float8, (known ->> ''top'')::float8, %3$s, %9$s,
-						%5$s / 1000 / %6$s * near.high)) AS found (area)
-					JOIN %1$s AS n ON n.place <@ found.area
-					JOIN unnest(near.ids, near.psis, near.scales) AS g (group_id, psi, scale) USING (group_id)
-				WHERE n.scale_from <= g.scale AND n.scale_to > g.scale
+						%5$s / 1000 / %6$s * near.high))
+					AND n.scale_from <= near.high AND n.scale_to > near.low
+					AND n.scale_from <= g.scale AND n.scale_to > g.scale
 				OFFSET 0
 			) AS p%12$s
 			WHERE p.geom IS NOT NULL
@@ -476,7 +476,8 @@ BEGIN
 		typify_tile_attributes((source->>'table')::regclass, attributes), latitude, min_side, max_area, tile_size,
 		layer_name);
 	EXECUTE format('CREATE FUNCTION %I.%I(z integer, x integer, y integer, query json DEFAULT ''{}'') RETURNS bytea '
-		'LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE SET search_path FROM CURRENT SET jit = off AS %L', schema, name,
+		'LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE SET search_path FROM CURRENT SET jit = off '
+		'SET enable_seqscan = off SET max_parallel_workers_per_gather = 0 AS %L', schema, name,
 		typify_tile_body(shown, source, min_zoom, max_zoom, branches));
 	EXECUTE format('COMMENT ON FUNCTION %s IS %L', signature, typify_tile_comment(
 		format('Buildings of %s, typified', source->>'table'), layer_name, source, attributes, min_zoom, max_zoom,

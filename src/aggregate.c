@@ -19,6 +19,7 @@
 #include "geometry.h"
 #include "hierarchy.h"
 #include "layer.h"
+#include "node_table.h"
 #include "options.h"
 #include "partial.h"
 #include "progress.h"
@@ -41,8 +42,15 @@ static const row_layout placeholders_layout = {.id = 2, .parameters = 3, .parame
 static const row_layout barred_layout = {.id = 2, .parameters = 3, .parameter_count = 4, .importance = 7};
 static const row_layout hierarchy_layout = {
 	.id = 2, .parameters = 2, .parameter_count = 3, .importance = 5, .without_scale = true};
-static const row_layout barred_hierarchy_layout = {
+static const row_layout write_layout = {
 	.id = 2, .parameters = 2, .parameter_count = 4, .importance = 6, .without_scale = true};
+
+/* arguments of typify_write_hierarchy's transition function that say where its nodes go */
+enum
+{
+	WRITE_HIERARCHY = 7,
+	WRITE_GROUP_ID
+};
 
 /* The context of states; the one preamble of all five functions. */
 static MemoryContext
@@ -411,11 +419,22 @@ typify_hierarchy_transition(PG_FUNCTION_ARGS)
 	return add_row(fcinfo, &hierarchy_layout);
 }
 
-PG_FUNCTION_INFO_V1(typify_barred_hierarchy_transition);
+PG_FUNCTION_INFO_V1(typify_write_hierarchy_transition);
 Datum
-typify_barred_hierarchy_transition(PG_FUNCTION_ARGS)
+typify_write_hierarchy_transition(PG_FUNCTION_ARGS)
 {
-	return add_row(fcinfo, &barred_hierarchy_layout);
+	ty_state *s;
+
+	if (PG_ARGISNULL(WRITE_HIERARCHY))
+		ty_refuse_null("hierarchy");
+	if (PG_ARGISNULL(WRITE_GROUP_ID))
+		ty_refuse_null("group_id");
+	s = (ty_state *) DatumGetPointer(add_row(fcinfo, &write_layout));
+	if (s == NULL)
+		PG_RETURN_NULL();
+	s->hierarchy = PG_GETARG_OID(WRITE_HIERARCHY);
+	s->group_id = PG_GETARG_INT32(WRITE_GROUP_ID);
+	PG_RETURN_POINTER(s);
 }
 
 /* what is looked for among the arguments of the workers' aggregate */
@@ -575,4 +594,19 @@ typify_hierarchy_final(PG_FUNCTION_ARGS)
 	check_ids(s);
 	input = input_of(s);
 	PG_RETURN_DATUM(ty_node_array(fcinfo, &input, &s->parameters));
+}
+
+PG_FUNCTION_INFO_V1(typify_write_hierarchy_final);
+Datum
+typify_write_hierarchy_final(PG_FUNCTION_ARGS)
+{
+	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
+	ty_input input;
+
+	aggregate_context(fcinfo);
+	if (s == NULL)
+		PG_RETURN_NULL();
+	check_ids(s);
+	input = input_of(s);
+	PG_RETURN_DATUM(ty_write_nodes(fcinfo, s, &input));
 }

@@ -2,12 +2,13 @@
  * hierarchy.c - nodes of a hierarchy: as the value of the aggregate, as placeholders at a scale, and where they stand
  * in the index.
  *
- * The index is a GiST index over points of the plane, which is built by sorting. A node that dies at a scale s' is
- * looked for at all scales below; its polygon at a scale s reaches as far from its vertex as it is large. So nodes
- * stand in bands, by scale_to, and in classes, by size, each a copy of the plane: a point is moved by BAND_SHIFT for
- * every band in x, for every class in y. A look-up asks each band from that of s on, in every class for the box
- * widened by what the largest of the class reaches at s. Half of what it finds is alive, since after s there appear
- * fewer nodes than are alive at s; that is checked, and the polygon itself against the box.
+ * The index is a GiST index over points of the plane, which is built by sorting. What is asked of it is a place, a
+ * scale between scale_from and scale_to, and as much more room as a polygon reaches from its vertex. So nodes stand in
+ * copies of the plane, beside one another by BAND_SHIFT: in x by the band in which their life spans end, in y by how
+ * many bands these last and, for each of that, by size. A look-up asks, of each class of sizes and lifetimes, the bands
+ * from that of the scale to the last in which a life span that has begun may end, for the box widened by what the
+ * largest of the class reaches at the scale. Two thirds of what it finds is alive; that is checked, and the polygon
+ * itself against the box.
  */
 #include "compat.h"
 
@@ -32,55 +33,28 @@
 
 /* --- the aggregate's value --- */
 
-/* The fields of the composite typify_node, in order. */
-enum
-{
-	NODE_NODE = 0,
-	NODE_PARENT,
-	NODE_KEPT,
-	NODE_REPRESENTATIVE,
-	NODE_MEMBER_COUNT,
-	NODE_FIRST_LEAF,
-	NODE_X,
-	NODE_Y,
-	NODE_AREA,
-	NODE_RATIO,
-	NODE_UX,
-	NODE_UY,
-	NODE_COST,
-	NODE_SCALE_FROM,
-	NODE_SCALE_TO,
-	NODE_FIELDS
-};
-
 /* exactly, but for what the null bitmap of a root takes */
 #define NODE_SIZE (MAXALIGN(SizeofHeapTupleHeader + 2) + 6 * sizeof(int32) + sizeof(int64) + 9 * sizeof(float8))
 
-#define FETCHED_AHEAD 16
-
-static void
-add_node(ty_row_array *rows, const ty_hierarchy *h, size_t number)
+void
+ty_node_values(const ty_hierarchy *h, size_t number, const ty_node *node, Datum *values, bool *nulls)
 {
-	ty_node node = ty_hierarchy_node(h, number);
-	Datum *values = rows->values;
-
-	values[NODE_NODE] = Int32GetDatum((int32) number);
-	rows->nulls[NODE_PARENT] = node.parent == TY_NONE;
-	values[NODE_PARENT] = Int32GetDatum((int32) node.parent);
-	values[NODE_KEPT] = BoolGetDatum(node.kept);
-	values[NODE_REPRESENTATIVE] = Int64GetDatum(h->buildings[node.representative].id);
-	values[NODE_MEMBER_COUNT] = Int32GetDatum((int32) node.member_count);
-	values[NODE_FIRST_LEAF] = Int32GetDatum((int32) node.first_leaf);
-	values[NODE_X] = Float8GetDatum(node.x);
-	values[NODE_Y] = Float8GetDatum(node.y);
-	values[NODE_AREA] = Float8GetDatum(node.area);
-	values[NODE_RATIO] = Float8GetDatum(node.ratio);
-	values[NODE_UX] = Float8GetDatum(node.ux);
-	values[NODE_UY] = Float8GetDatum(node.uy);
-	values[NODE_COST] = Float8GetDatum(node.cost);
-	values[NODE_SCALE_FROM] = Float8GetDatum(node.scale_from);
-	values[NODE_SCALE_TO] = Float8GetDatum(node.scale_to);
-	ty_row_array_add(rows);
+	values[TY_NODE_NODE] = Int32GetDatum((int32) number);
+	nulls[TY_NODE_PARENT] = node->parent == TY_NONE;
+	values[TY_NODE_PARENT] = Int32GetDatum((int32) node->parent);
+	values[TY_NODE_KEPT] = BoolGetDatum(node->kept);
+	values[TY_NODE_REPRESENTATIVE] = Int64GetDatum(h->buildings[node->representative].id);
+	values[TY_NODE_MEMBER_COUNT] = Int32GetDatum((int32) node->member_count);
+	values[TY_NODE_FIRST_LEAF] = Int32GetDatum((int32) node->first_leaf);
+	values[TY_NODE_X] = Float8GetDatum(node->x);
+	values[TY_NODE_Y] = Float8GetDatum(node->y);
+	values[TY_NODE_AREA] = Float8GetDatum(node->area);
+	values[TY_NODE_RATIO] = Float8GetDatum(node->ratio);
+	values[TY_NODE_UX] = Float8GetDatum(node->ux);
+	values[TY_NODE_UY] = Float8GetDatum(node->uy);
+	values[TY_NODE_COST] = Float8GetDatum(node->cost);
+	values[TY_NODE_SCALE_FROM] = Float8GetDatum(node->scale_from);
+	values[TY_NODE_SCALE_TO] = Float8GetDatum(node->scale_to);
 }
 
 Datum
@@ -90,14 +64,18 @@ ty_node_array(FunctionCallInfo fcinfo, const ty_input *input, const ty_parameter
 	ty_row_array rows;
 	ty_hierarchy h;
 
-	ty_row_array_begin(&rows, fcinfo, NODE_FIELDS, "typify_node", 2 * n * NODE_SIZE, 2 * n - 1);
+	ty_row_array_begin(&rows, fcinfo, TY_NODE_FIELDS, "typify_node", 2 * n * NODE_SIZE, 2 * n - 1);
 	ty_build_hierarchy(input, p, &h);
 	ARR_DIMS(rows.array)[0] = (int) ty_hierarchy_nodes(&h);
 	for (size_t place = 0; place < ty_hierarchy_nodes(&h); place++)
 	{
+		ty_node node;
+
 		CHECK_FOR_INTERRUPTS();
-		ty_hierarchy_fetch(&h, place + FETCHED_AHEAD);
-		add_node(&rows, &h, ty_hierarchy_stored(&h, place));
+		ty_hierarchy_fetch(&h, place + TY_FETCHED_AHEAD);
+		node = ty_hierarchy_node(&h, ty_hierarchy_stored(&h, place));
+		ty_node_values(&h, ty_hierarchy_stored(&h, place), &node, rows.values, rows.nulls);
+		ty_row_array_add(&rows);
 	}
 	ty_hierarchy_free(&ty_backend_environment, &h);
 	return ty_row_array_end(&rows);
@@ -108,10 +86,14 @@ ty_node_array(FunctionCallInfo fcinfo, const ty_input *input, const ty_parameter
 /* A building's measures have no bytes between them. */
 StaticAssertDecl(sizeof(ty_building) == 6 * sizeof(double) + sizeof(int64), "ty_building is padded");
 
-static int64
-hash_of_building(const ty_building *building)
+int64
+ty_hash_building(const ty_building *building, double importance)
 {
-	return (int64) hash_bytes_extended((const unsigned char *) building, sizeof(*building), 0);
+	uint64 seed = 0;
+
+	if (importance != 1)
+		memcpy(&seed, &importance, sizeof(seed));
+	return (int64) hash_bytes_extended((const unsigned char *) building, sizeof(*building), seed);
 }
 
 PG_FUNCTION_INFO_V1(typify_building_hash);
@@ -124,7 +106,7 @@ typify_building_hash(PG_FUNCTION_ARGS)
 	if (!ty_measure_datum(PG_GETARG_DATUM(0), &building, &srid, NULL))
 		PG_RETURN_NULL();
 	building.id = PG_GETARG_INT64(1);
-	PG_RETURN_INT64(hash_of_building(&building));
+	PG_RETURN_INT64(ty_hash_building(&building, PG_GETARG_FLOAT8(2)));
 }
 
 PG_FUNCTION_INFO_V1(typify_leaf_hash);
@@ -139,7 +121,7 @@ typify_leaf_hash(PG_FUNCTION_ARGS)
 							.ux = PG_GETARG_FLOAT8(5),
 							.uy = PG_GETARG_FLOAT8(6)};
 
-	PG_RETURN_INT64(hash_of_building(&building));
+	PG_RETURN_INT64(ty_hash_building(&building, 1));
 }
 
 /* --- places in the index --- */
@@ -163,16 +145,31 @@ class_of(double reach)
 										: Min((exponent - LEAST_CLASS_BITS + CLASS_BITS - 1) / CLASS_BITS, MOST_CLASS);
 }
 
-/* How far a node reaches that is drawn with the area factor 1, in ground units: half the diagonal. */
+double
+ty_node_reach(double area, double ratio, double psi)
+{
+	return 0.5 * sqrt(area * (ratio + 1 / ratio)) * sqrt(fmax(1, (1 - psi) / (1 - REACH_PSI)));
+}
+
+/* in y: the copies of a class stand together */
+static double
+row_shift(int class, int lifetime)
+{
+	return BAND_SHIFT * (class * TY_LIFETIMES + lifetime);
+}
+
+Point
+ty_node_place(double x, double y, double reach, double scale_from, double scale_to, double source_scale)
+{
+	return (Point){x + BAND_SHIFT * ty_band(scale_to, source_scale),
+				   y + row_shift(class_of(reach), ty_lifetime(scale_from, scale_to, source_scale))};
+}
+
 PG_FUNCTION_INFO_V1(typify_reach);
 Datum
 typify_reach(PG_FUNCTION_ARGS)
 {
-	double area = PG_GETARG_FLOAT8(0);
-	double ratio = PG_GETARG_FLOAT8(1);
-	double psi = PG_GETARG_FLOAT8(2);
-
-	PG_RETURN_FLOAT8(0.5 * sqrt(area * (ratio + 1 / ratio)) * sqrt(fmax(1, (1 - psi) / (1 - REACH_PSI))));
+	PG_RETURN_FLOAT8(ty_node_reach(PG_GETARG_FLOAT8(0), PG_GETARG_FLOAT8(1), PG_GETARG_FLOAT8(2)));
 }
 
 PG_FUNCTION_INFO_V1(typify_place);
@@ -181,8 +178,8 @@ typify_place(PG_FUNCTION_ARGS)
 {
 	Point *place = palloc(sizeof(Point));
 
-	place->x = PG_GETARG_FLOAT8(0) + BAND_SHIFT * ty_band(PG_GETARG_FLOAT8(3), PG_GETARG_FLOAT8(4));
-	place->y = PG_GETARG_FLOAT8(1) + BAND_SHIFT * class_of(PG_GETARG_FLOAT8(2));
+	*place = ty_node_place(PG_GETARG_FLOAT8(0), PG_GETARG_FLOAT8(1), PG_GETARG_FLOAT8(2), PG_GETARG_FLOAT8(3),
+						   PG_GETARG_FLOAT8(4), PG_GETARG_FLOAT8(5));
 	PG_RETURN_POINT_P(place);
 }
 
@@ -214,14 +211,14 @@ widening(const search *s, double reach)
 
 /* The box, wider, in a copy of the plane. */
 static BOX
-shifted_box(const search *s, int band, int class, double wider)
+shifted_box(const search *s, int band, int class, int lifetime, double wider)
 {
 	BOX box;
 
 	box.low.x = s->box.low.x - wider + BAND_SHIFT * band;
 	box.high.x = s->box.high.x + wider + BAND_SHIFT * band;
-	box.low.y = s->box.low.y - wider + BAND_SHIFT * class;
-	box.high.y = s->box.high.y + wider + BAND_SHIFT * class;
+	box.low.y = s->box.low.y - wider + row_shift(class, lifetime);
+	box.high.y = s->box.high.y + wider + row_shift(class, lifetime);
 	return box;
 }
 
@@ -240,7 +237,7 @@ copies_are_apart(const search *s, double wider)
 static BOX
 box_of_all(const search *s, int most_class, double wider)
 {
-	BOX box = shifted_box(s, 0, 0, wider), last = shifted_box(s, TY_ROOT_BAND, most_class, wider);
+	BOX box = shifted_box(s, 0, 0, 0, wider), last = shifted_box(s, TY_ROOT_BAND, most_class, TY_LIFETIMES - 1, wider);
 
 	box.high = last.high;
 	return box;
@@ -255,10 +252,24 @@ box_datum(BOX box)
 	return BoxPGetDatum(copy);
 }
 
+/* Of a class and lifetime: the bands in which what is alive at these scales may end. */
+static int
+list_bands(const search *s, int class, int lifetime, double wider, Datum *boxes)
+{
+	int first = ty_band(s->low, s->source_scale), greatest = ty_band(s->top, s->source_scale);
+	int last = Min(ty_last_band(lifetime, ty_band(s->high, s->source_scale)), greatest);
+	int count = 0;
+
+	for (int band = first; band <= last && band < TY_ROOT_BAND; band++)
+		boxes[count++] = box_datum(shifted_box(s, band, class, lifetime, wider));
+	if (lifetime == TY_LIFETIMES - 1)
+		boxes[count++] = box_datum(shifted_box(s, TY_ROOT_BAND, class, lifetime, wider));
+	return count;
+}
+
 static int
 list_boxes(const search *s, int most_class, Datum *boxes)
 {
-	int first = ty_band(s->low, s->source_scale), last = ty_band(s->top, s->source_scale);
 	int count = 0;
 
 	for (int class = 0; class <= most_class; class ++)
@@ -266,9 +277,8 @@ list_boxes(const search *s, int most_class, Datum *boxes)
 		double limit = ldexp(1, LEAST_CLASS_BITS + CLASS_BITS * class);
 		double wider = widening(s, class == most_class ? s->reach : limit);
 
-		for (int band = first; band <= last && band < TY_ROOT_BAND; band++)
-			boxes[count++] = box_datum(shifted_box(s, band, class, wider));
-		boxes[count++] = box_datum(shifted_box(s, TY_ROOT_BAND, class, wider));
+		for (int lifetime = 0; lifetime < TY_LIFETIMES; lifetime++)
+			count += list_bands(s, class, lifetime, wider, boxes + count);
 	}
 	return count;
 }
@@ -286,7 +296,7 @@ typify_search(PG_FUNCTION_ARGS)
 				.lod200_scale = PG_GETARG_FLOAT8(6),
 				.min_side = PG_GETARG_FLOAT8(7)};
 	int most_class = class_of(s.reach), count = 1;
-	Datum *boxes = palloc(sizeof(Datum) * (most_class + 1) * (TY_ROOT_BAND + 1));
+	Datum *boxes = palloc(sizeof(Datum) * (most_class + 1) * TY_LIFETIMES * (TY_ROOT_BAND + 1));
 	double widest = widening(&s, s.reach);
 
 	if (copies_are_apart(&s, widest))

@@ -54,6 +54,8 @@ ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid,
 	s->buildings = s->first;
 	s->outlines = NULL;
 	s->importance = NULL;
+	s->hierarchy = InvalidOid;
+	s->group_id = 0;
 	s->barriers = NULL;
 	return s;
 }

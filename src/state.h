@@ -24,6 +24,8 @@ typedef struct ty_state
 	/* [capacity] what placeholders are drawn with, NULL for a building that has none; NULL while no building has one */
 	ty_outline **outlines;
 	double *importance;		  /* [capacity] of the buildings; NULL as long as all are 1 */
+	Oid hierarchy;			  /* table in which typify_write_hierarchy puts the nodes, */
+	int32 group_id;			  /* those of this group */
 	ty_barrier_set *barriers; /* of the parameters; NULL too in a state that another process sent without them */
 	ty_building first[FLEXIBLE_ARRAY_MEMBER];
 } ty_state;

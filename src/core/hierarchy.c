@@ -290,7 +290,7 @@ find_scales(replay *r)
 
 /* ---- the order in which nodes are best stored ---- */
 
-/* Merges by band, then by first leaf: what is drawn at a scale, and near one another, is stored together. */
+/* Merges by lifetime and band, then by first leaf: what is drawn at a scale, and near one another, is stored together. */
 static ty_status
 find_storage_order(replay *r)
 {
@@ -304,9 +304,11 @@ find_storage_order(replay *r)
 		for (size_t step = 0; step < h->merges; step++)
 		{
 			uint32_t parent = h->parent[h->n + step];
-			uint64_t band = (uint64_t) ty_band(parent == TY_NONE ? INFINITY : h->scale[parent - h->n], h->source_scale);
+			double scale_to = parent == TY_NONE ? INFINITY : h->scale[parent - h->n];
+			uint64_t lifetime = (uint64_t) ty_lifetime(h->scale[step], scale_to, h->source_scale);
+			uint64_t band = (uint64_t) ty_band(scale_to, h->source_scale);
 
-			keys[step] = band << 32 | h->first[h->n + step];
+			keys[step] = lifetime << 40 | band << 32 | h->first[h->n + step];
 			h->stored[step] = (uint32_t) step;
 		}
 		status = ty_sort_keys(r->env, keys, h->stored, h->merges);
@@ -420,6 +422,30 @@ ty_band(double scale, double source_scale)
 	(void) frexp(enlargement * enlargement, &exponent);
 	exponent = isinf(enlargement * enlargement) ? TY_ROOT_BAND : exponent;
 	return exponent < 1 ? 0 : exponent < TY_ROOT_BAND ? exponent - 1 : TY_ROOT_BAND - 1;
+}
+
+/* by how many bands a life span of each class ends at most after the one that it begins in */
+static const int longest[TY_LIFETIMES] = {1, 2, 3, 7, TY_ROOT_BAND};
+
+int
+ty_last_band(int lifetime, int band)
+{
+	int last = band + longest[lifetime];
+
+	return last < TY_ROOT_BAND ? last : TY_ROOT_BAND;
+}
+
+/* Roots are in the last class, wherever they begin. */
+int
+ty_lifetime(double scale_from, double scale_to, double source_scale)
+{
+	int first = ty_band(scale_from, source_scale), last = ty_band(scale_to, source_scale), lifetime = 0;
+
+	if (last == TY_ROOT_BAND)
+		return TY_LIFETIMES - 1;
+	while (last - first > longest[lifetime])
+		lifetime++;
+	return lifetime;
 }
 
 void

@@ -66,7 +66,7 @@ ty_node ty_hierarchy_node(const ty_hierarchy *h, size_t node);
 
 /*
  * The order in which nodes are best stored, so that a look-up finds in few pages what it needs: the number of the node
- * at each place. Leaves come first, as they are numbered; inner nodes by band, then as their leaves are numbered.
+ * at each place. Leaves come first, as they are numbered; inner nodes by lifetime, band, then as their leaves are numbered.
  */
 static inline size_t
 ty_hierarchy_stored(const ty_hierarchy *h, size_t place)
@@ -79,5 +79,14 @@ void ty_hierarchy_fetch(const ty_hierarchy *h, size_t place);
 /* Life spans by the scale at which they end: two bands for every doubling of the scale, the last one for roots. */
 #define TY_ROOT_BAND 63
 int ty_band(double scale, double source_scale);
+
+/*
+ * Life spans by how many bands they reach into. Most last a doubling of the scale or two, so that of those which end
+ * later than a scale half begin later, too: by this they are told apart.
+ */
+#define TY_LIFETIMES 5
+/* the last band that a life span of a class may end in, when it begins in this one or before */
+int ty_last_band(int lifetime, int band);
+int ty_lifetime(double scale_from, double scale_to, double source_scale);
 
 #endif

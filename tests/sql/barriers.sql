@@ -100,26 +100,7 @@ CREATE TABLE typify_test_query AS SELECT * FROM (VALUES
 	(6, 'each group its own', 'SELECT md5(string_agg(md5(t::bytea), '''' ORDER BY block)) FROM (SELECT block, typify(t.geom, 75000, 0, typify_options(barriers => n.geom)) AS t FROM typify_test_town AS t JOIN typify_test_nets AS n USING (block) GROUP BY block) AS q'),
 	(7, 'one scan after the other', 'SELECT md5(string_agg(md5(t::bytea), '''' ORDER BY block)) FROM typify_test_nets AS n, LATERAL (SELECT typify(geom, 75000, 0, typify_options(barriers => n.geom)) AS t FROM typify_test_town) AS l')
 ) AS q (number, what, query);
-CREATE FUNCTION pg_temp.answer(query text) RETURNS text LANGUAGE plpgsql AS
-$$
-DECLARE
-	answer text;
-BEGIN
-	EXECUTE query INTO answer;
-	RETURN answer;
-END
-$$;
-CREATE FUNCTION pg_temp.is_parallel(query text) RETURNS boolean LANGUAGE plpgsql AS
-$$
-DECLARE
-	line text;
-BEGIN
-	FOR line IN EXECUTE 'EXPLAIN (COSTS OFF) ' || query LOOP
-		IF line ~ 'Partial .*Aggregate' THEN RETURN true; END IF;
-	END LOOP;
-	RETURN false;
-END
-$$;
+\i tests/data/parallel_of.sql
 SET max_parallel_workers_per_gather = 0;
 CREATE TEMP TABLE serial AS SELECT number, pg_temp.answer(query) AS answer FROM typify_test_query;
 SET max_parallel_workers_per_gather = 3;

@@ -6,5 +6,7 @@ WHERE refclassid = 'pg_extension'::regclass AND refobjid = (SELECT oid FROM pg_e
 SELECT attname AS field_without_comment FROM pg_attribute WHERE attrelid = 'typify_options'::regclass AND col_description(attrelid, attnum) IS NULL ORDER BY attnum;
 -- what is immutable is parallel safe, what reads tables at least in the leader
 SELECT p.oid::regprocedure AS not_parallel_safe FROM pg_proc AS p JOIN pg_depend AS d ON d.objid = p.oid AND d.classid = 'pg_proc'::regclass AND d.deptype = 'e'
-	AND d.refobjid = (SELECT oid FROM pg_extension WHERE extname = 'typify') WHERE provolatile = 'i' AND proparallel <> 's' OR provolatile = 's' AND proparallel = 'u' ORDER BY 1;
+	AND d.refobjid = (SELECT oid FROM pg_extension WHERE extname = 'typify') WHERE provolatile = 'i' AND proparallel <> 's'
+	-- an aggregate is what its transition function is
+	AND NOT EXISTS (SELECT FROM pg_aggregate JOIN pg_proc AS t ON t.oid = aggtransfn WHERE aggfnoid = p.oid AND t.provolatile = 'v') OR provolatile = 's' AND proparallel = 'u' ORDER BY 1;
 SELECT proname, procost FROM pg_proc WHERE proname ~ '^typify.*_final$' ORDER BY 1;

@@ -3,17 +3,7 @@ CREATE TABLE typify_test_building AS
 SELECT i AS id, i % 7 AS block, ST_MakeEnvelope(x, y, x + 6 + i % 11, y + 7 + i % 7, 2056) AS geom
 FROM (SELECT i, i::bigint * 7919 % 10007 * 3 AS x, i::bigint * 104729 % 10009 * 3 AS y FROM generate_series(1, 20000) AS i) AS b;
 ANALYZE typify_test_building;
-CREATE FUNCTION pg_temp.is_parallel(query text) RETURNS boolean LANGUAGE plpgsql AS
-$$
-DECLARE
-	line text;
-BEGIN
-	FOR line IN EXECUTE 'EXPLAIN (COSTS OFF) ' || query LOOP
-		IF line ~ 'Partial .*Aggregate' THEN RETURN true; END IF;
-	END LOOP;
-	RETURN false;
-END
-$$;
+\i tests/data/parallel_of.sql
 CREATE TABLE typify_test_query AS
 SELECT * FROM (VALUES
 	(1, 'typify', 'SELECT md5(typify(geom, 75000, 0.5)::bytea) FROM typify_test_building'),
@@ -25,15 +15,6 @@ SELECT * FROM (VALUES
 	(7, 'some without rows', 'SELECT md5(typify(geom, 75000)::bytea) FROM typify_test_building WHERE id < 100'),
 	(8, 'nothing', 'SELECT coalesce(md5(typify(geom, 75000)::bytea), ''null'') FROM typify_test_building WHERE id % 2 = 2')
 ) AS q (number, what, query);
-CREATE FUNCTION pg_temp.answer(query text) RETURNS text LANGUAGE plpgsql AS
-$$
-DECLARE
-	answer text;
-BEGIN
-	EXECUTE query INTO answer;
-	RETURN answer;
-END
-$$;
 
 SET max_parallel_workers_per_gather = 0;
 CREATE TEMP TABLE serial AS SELECT number, pg_temp.answer(query) AS answer FROM typify_test_query;
