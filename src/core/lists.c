@@ -42,7 +42,8 @@ ty_lists_keep(ty_lists *lists, uint32_t owner, const uint32_t *numbers, size_t c
 	lists->at[owner] = (uint32_t) lists->used;
 	lists->used += count + 1;
 	list[0] = (uint32_t) count;
-	memcpy(list + 1, numbers, count * sizeof *list);
+	if (count > 0)
+		memcpy(list + 1, numbers, count * sizeof *list);
 	return list;
 }
 
