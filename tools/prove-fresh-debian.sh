@@ -65,7 +65,7 @@ wanted plain || exit $status
 step "make && make install && make installcheck"
 # what Debian made when it installed the server; its port may be another's by now, outside of this system
 version=$(ls /etc/postgresql | tail -n 1)
-as_root pg_ctlcluster "$version" main stop 2>/dev/null || true
+as_root pg_ctlcluster "$version" main stop >/dev/null 2>&1 || true
 for try in 1 2 3; do
 	export PGPORT=$((54000 + RANDOM % 1000))
 	as_root pg_conftool "$version" main set port $PGPORT

@@ -36,3 +36,11 @@ FROM (SELECT typify_placeholders(geom, id, 75000, 0.5, typify_options(min_area =
 	unnest(p.members) AS m JOIN lod25 AS b ON b.id = m, LATERAL (
 		SELECT min(ST_Distance(ST_Centroid(b.geom), ST_Centroid(q.geom))) AS nearest FROM unnest(list) AS q) AS d
 WHERE ST_Area(b.geom) < 100;
+
+-- with one on its side of a barrier, if there is one
+CREATE TEMP TABLE yard AS SELECT * FROM (VALUES (1, ST_MakeEnvelope(0, 0, 20, 20)), (2, ST_MakeEnvelope(60, 0, 80, 20)), (3, ST_MakeEnvelope(82, 8, 84, 10)),
+	(4, ST_MakeEnvelope(24, 8, 26, 10)), (5, ST_MakeEnvelope(45, 8, 47, 10))) AS v (id, geom);
+SELECT way, p.id, members
+FROM (VALUES ('no barrier', NULL), ('beside a house', 'LINESTRING(22 -50,22 50)'), ('around a shed', 'LINESTRING(44 -50,44 50,48 50,48 -50,44 -50)')) AS v (way, line), LATERAL (
+	SELECT typify_placeholders(geom, id, 50000, 0, typify_options(exponent => 0, min_area => 5, barriers => line::geometry)) AS list FROM yard) AS t, unnest(list) AS p
+ORDER BY way COLLATE "C", id;
