@@ -70,7 +70,8 @@ ty_place_box(ty_ladder *l, uint32_t i)
 					 0.5 * sides.length,
 					 0.5 * sides.width};
 
-	l->body[i] = (ty_body){box, half_diagonal(sides), s->state == TY_DRAWN, s->fixed};
+	l->body[i] =
+		(ty_body){box, half_diagonal(sides), s->state == TY_DRAWN, s->fixed, (uint8_t) (s->size > 1 ? 2 : s->size > 0)};
 }
 
 void
@@ -597,7 +598,7 @@ allocate_ladder(ty_ladder *l)
 	if (status == TY_OK && l->rules->lines != NULL)
 		status = ty_lists_begin(l->env, l->n, LINES_EACH, &l->lines_of);
 	l->conflict_capacity = 256;
-	l->body = ty_allocate_array(l->env, l->n, sizeof *l->body);
+	l->body_memory = ty_allocate_array(l->env, l->n + 1, sizeof *l->body);
 	l->start = ty_allocate_array(l->env, l->n, sizeof *l->start);
 	l->start_size = ty_allocate_array(l->env, l->n, sizeof *l->start_size);
 	l->frozen = ty_allocate_array(l->env, l->n, sizeof *l->frozen);
@@ -607,9 +608,10 @@ allocate_ladder(ty_ladder *l)
 	l->listed = ty_allocate_array(l->env, l->n, sizeof *l->listed);
 	l->degree = ty_allocate_array(l->env, l->n, sizeof *l->degree);
 	l->conflicts = ty_allocate_array(l->env, l->conflict_capacity, sizeof *l->conflicts);
-	if (l->body == NULL || l->start == NULL || l->start_size == NULL || l->frozen == NULL || l->active == NULL ||
+	if (l->body_memory == NULL || l->start == NULL || l->start_size == NULL || l->frozen == NULL || l->active == NULL ||
 		l->next == NULL || l->by_line == NULL || l->listed == NULL || l->degree == NULL || l->conflicts == NULL)
 		return TY_NO_MEMORY;
+	l->body = (ty_body *) (((uintptr_t) l->body_memory + sizeof *l->body - 1) / sizeof *l->body * sizeof *l->body);
 	memset(l->frozen, 0, l->n * sizeof *l->frozen);
 	memset(l->degree, 0, l->n * sizeof *l->degree);
 	memset(l->listed, 0, l->n * sizeof *l->listed);
@@ -620,7 +622,7 @@ static void
 free_ladder(ty_ladder *l)
 {
 	ty_vicinity_free(&l->near);
-	ty_release(l->env, l->body);
+	ty_release(l->env, l->body_memory);
 	ty_release(l->env, l->start);
 	ty_release(l->env, l->start_size);
 	ty_release(l->env, l->frozen);

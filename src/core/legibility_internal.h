@@ -20,6 +20,7 @@ typedef struct ty_body
 	ty_oblong box;
 	double radius; /* half its diagonal */
 	bool drawn, fixed;
+	uint8_t stages; /* of shrinking that are left: 2 above its own size, 1 above the least, 0 */
 } ty_body;
 
 typedef struct ty_ladder
@@ -34,7 +35,8 @@ typedef struct ty_ladder
 	double line_target; /* the same for lines; 0: there are none */
 	double line_gap;
 	bool *by_line;		  /* [n] whether a line is in reach of the site */
-	ty_body *body;		  /* [n] where each is now */
+	ty_body *body;		  /* [n] where each is now: cache lines of ... */
+	void *body_memory;	  /* ... this, which begins a little before */
 	ty_point *start;	  /* [n] moved, as given */
 	double *start_size;	  /* [n] */
 	bool *frozen;		  /* [n] is back at its start and stays there */

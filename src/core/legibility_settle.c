@@ -16,13 +16,13 @@
 
 /* how many times larger than at the floor, 1 for own and 0 for least, the site is now */
 static inline double
-growth(const ty_ladder *l, uint32_t i, double floor_size)
+growth(const ty_ladder *l, uint32_t i, int floor_size)
 {
 	const ty_site *s = &l->sites[i];
 	const ty_sides *least = floor_size >= 1 ? &s->own : &s->least;
 	ty_sides now;
 
-	if (s->fixed || !(s->size > floor_size))
+	if (l->body[i].fixed || l->body[i].stages <= floor_size)
 		return 0;
 	now = ty_site_sides(s);
 	return now.width * now.length / (least->width * least->length);
@@ -30,7 +30,7 @@ growth(const ty_ladder *l, uint32_t i, double floor_size)
 
 /* The size below which a site that was moved would stand too far from home for its longer side. */
 static double
-least_size(const ty_ladder *l, uint32_t i, double floor_size)
+least_size(const ty_ladder *l, uint32_t i, int floor_size)
 {
 	const ty_site *s = &l->sites[i];
 	double moved = sqrt(s->moved.x * s->moved.x + s->moved.y * s->moved.y);
@@ -44,7 +44,7 @@ least_size(const ty_ladder *l, uint32_t i, double floor_size)
 
 /* by how much less the site takes up along n at the floor than one stage above it */
 static double
-span_of_stage(const ty_ladder *l, uint32_t i, ty_point n, double floor_size)
+span_of_stage(const ty_ladder *l, uint32_t i, ty_point n, int floor_size)
 {
 	const ty_site *s = &l->sites[i];
 	ty_sides high = floor_size >= 1 ? s->full : s->own, low = floor_size >= 1 ? s->own : s->least;
@@ -57,12 +57,12 @@ span_of_stage(const ty_ladder *l, uint32_t i, ty_point n, double floor_size)
 
 /* Shrinks the site by what is lacking along n, in one step, and not below the floor. Whether it became smaller. */
 static bool
-shrink(ty_ladder *l, uint32_t i, double lack, ty_point n, double floor_size)
+shrink(ty_ladder *l, uint32_t i, double lack, ty_point n, int floor_size)
 {
 	ty_site *s = &l->sites[i];
 	double size = s->size, least, span;
 
-	if (!(size > floor_size))
+	if (l->body[i].stages <= floor_size)
 		return false;
 	least = least_size(l, i, floor_size);
 	span = span_of_stage(l, i, n, floor_size);
@@ -75,7 +75,7 @@ shrink(ty_ladder *l, uint32_t i, double lack, ty_point n, double floor_size)
 
 /* Shrinks two sites as far as needed and as the floor allows, the one that has grown more first. What still lacks. */
 static double
-shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, double floor_size)
+shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, int floor_size)
 {
 	for (int step = 0; step < SHRINK_STEPS && lack > 0; step++)
 	{
