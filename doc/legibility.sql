@@ -15,12 +15,12 @@ SELECT (r).number, ST_MakeLine(ST_Centroid(geom) ORDER BY (r).place) AS geom
 FROM (SELECT geom, typify_rows(geom) OVER () AS r FROM buildings) AS b WHERE (r).place IS NOT NULL GROUP BY 1;
 
 -- the layers: how each limitation looks, and what is done about it
-CREATE TABLE layers (picture text, remedy boolean, title text, scale float8, id bigint, geom geometry, members bigint[], area float8);
+CREATE TABLE layers (picture text, remedy boolean, title text, scale float8, id bigint, geom geometry, members bigint[], area float8, width float8);
 CREATE FUNCTION derive(picture text, remedy boolean, words text, options typify_options DEFAULT NULL, weighted boolean DEFAULT false)
 RETURNS void LANGUAGE sql AS
 $$
 	INSERT INTO layers
-	SELECT name, remedy, words, scale, p.id, p.geom, p.members, p.area
+	SELECT name, remedy, words, scale, p.id, p.geom, p.members, p.area, p.width
 	FROM scene, LATERAL (
 		SELECT typify_placeholders(geom, id, scale, 0.5, options, CASE WHEN weighted THEN worth ELSE 1 END) AS list FROM source) AS t, unnest(list) AS p
 	WHERE name = picture
@@ -53,7 +53,9 @@ BEGIN
 	IF wanted IN ('important', 'all') THEN
 		words := words || (SELECT format('%s of %s important buildings in place and in size', count(j.id), count(*))
 			FROM important AS i LEFT JOIN judged AS j ON j.id = i.id AND ST_Distance(ST_Centroid(j.geom), ST_Centroid(i.geom)) < 0.01
-				AND abs(ST_Area(j.geom) / ST_Area(i.geom) - 1) < 0.001);
+				-- as large as it is or, where it is narrower than what can be seen, as wide as that
+				AND (abs(ST_Area(j.geom) / ST_Area(i.geom) - 1) < 0.001
+					OR wanted = 'all' AND ST_Area(j.geom) > ST_Area(i.geom) AND abs(j.width / (0.35 * j.scale / 1000) - 1) < 1e-6));
 	END IF;
 	IF wanted IN ('sizes', 'all') THEN
 		words := words || format('%s narrower than 0.35 mm', q.short_sides) || (

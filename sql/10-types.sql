@@ -40,7 +40,7 @@ COMMENT ON COLUMN typify_options.count_rule IS
 COMMENT ON COLUMN typify_options.area_statistic IS
 'What a placeholder takes from the areas of its members: mean (default, paper), median, or sum: their plain sum without the area factor.';
 COMMENT ON COLUMN typify_options.shape IS
-'rectangle (default, paper: ratio and direction of the representative), square (of equal area), footprint (the representative''s own outline, of several parts the largest, scaled to the area about its centroid; width and length are those of its minimum-area rectangle, which is drawn where the outline is no valid polygon) or auto (kept buildings, see keep_area and importance, with their own outline, simplified by ST_SimplifyPreserveTopology where detours are shorter than 0.1 mm on the map, and their own area; all others as rectangles).';
+'rectangle (default, paper: ratio and direction of the representative), square (of equal area), footprint (the representative''s own outline, of several parts the largest, scaled to the area about its centroid; width and length are those of its minimum-area rectangle, which is drawn where the outline is no valid polygon) or auto (kept buildings, see keep_area and importance, with their own outline, simplified by ST_SimplifyPreserveTopology where detours are shorter than 0.1 mm on the map (which corners remain may depend on the version of GEOS), and their own area; all others as rectangles).';
 COMMENT ON COLUMN typify_options.min_area IS
 'A building smaller than this (a shed) adds nothing to count, position or mean; it is a member of the placeholder whose centre is nearest to its centroid, of equally near ones the first. A group of such buildings alone is one row with geom NULL. A kept building is no shed. Square units of the SRID; 0, the default, is off.';
 COMMENT ON COLUMN typify_options.min_side IS 
@@ -95,11 +95,12 @@ CREATE TYPE typify_settled AS (
 	length double precision,
 	factor double precision,
 	x double precision,
-	y double precision
+	y double precision,
+	heir bigint
 );
 
 COMMENT ON TYPE typify_settled IS
-'What typify_settle did to a placeholder. drawn: false where there was no room. geom: its rectangle; NULL for one that is drawn as an outline: that is scaled by factor about the origin and then shifted by x and y. width, length: as they are now.';
+'What typify_settle did to a placeholder. drawn: false where there was no room. geom: its rectangle; NULL for one that is drawn as an outline: that is scaled by factor about the origin and then shifted by x and y. width, length: as they are now. heir: the id of the placeholder that takes over the members of one that is not drawn; NULL where all of its group are not.';
 
 CREATE FUNCTION typify_options(
 	source_scale double precision DEFAULT NULL,

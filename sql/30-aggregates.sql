@@ -288,7 +288,7 @@ CREATE AGGREGATE typify_sites(
 );
 
 COMMENT ON AGGREGATE typify_sites(geometry, bigint, double precision, double precision, typify_options, geometry, double precision) IS
-'As typify_barred, with what typify_settle needs to make the placeholders of several groups legible together.';
+'As typify_barred, with what typify_settle needs to make the placeholders of several groups legible together; kept buildings in each other''s way are left for that one to tell of.';
 
 CREATE FUNCTION typify_settle_transition(internal, bigint, integer, integer, integer, double precision[], geometry)
 RETURNS internal
@@ -322,5 +322,5 @@ CREATE AGGREGATE typify_settle(
 );
 
 COMMENT ON AGGREGATE typify_settle(bigint, integer, integer, integer, double precision[], geometry) IS
-'Makes the drawn placeholders of all groups of a layer legible together (options.min_gap), where each group is so by itself: id, which differs from row to row, a number of the group, member_count, the SRID, the field site of typify_site, and barriers, the same for all rows or NULL. Placeholders of different groups are not merged: they are shrunk, moved or, last, one of two is not drawn, that with more conflicts, then with fewer members, which is said in a WARNING. Returns those that something was done to; NULL without min_gap or a row. The same set of rows gives the same answer. Rows with a NULL are passed over. Errors: 22023 for a site that is none; 22003 for coordinates that are too large.';
+'Makes the drawn placeholders of all groups of a layer legible together (options.min_gap), where each group is so by itself: id, which differs from row to row, a number of the group, member_count, the SRID, the field site of typify_site, and barriers, the same for all rows or NULL. Placeholders of different groups are not merged: they are shrunk, moved or, last, one of two is not drawn, that with more conflicts, then with fewer members: its members go to the nearest of its group (heir) or, where none of that is drawn, nowhere, which is said in a WARNING. Kept ones stay: how many are too near to each other or to a barrier is said in a WARNING, too. Returns those that something was done to; NULL without min_gap or a row. The same set of rows gives the same answer. Rows with a NULL are passed over. Errors: 22023 for a site that is none; 22003 for coordinates that are too large.';
 

@@ -252,9 +252,16 @@ BEGIN
 				FROM (SELECT *, dense_rank() OVER (ORDER BY typify_group_key(d.grp)) AS number FROM drawn AS d
 					WHERE d.site IS NOT NULL) AS n)) AS s
 		)
-		SELECT d.id, typify_settled_geometry(d.geom, s), d.member_count, d.members, typify_settled_area(d.area, s),
-			coalesce((s).width, d.width), coalesce((s).length, d.length), d.orientation, d.grp
-		FROM drawn AS d LEFT JOIN settled ON (s).id = d.id;
+		SELECT d.id, typify_settled_geometry(d.geom, s), d.member_count + coalesce(cardinality(i.members), 0),
+			d.members || i.members, typify_settled_area(d.area, s), coalesce((s).width, d.width),
+			coalesce((s).length, d.length), d.orientation, d.grp
+		FROM drawn AS d LEFT JOIN settled ON (s).id = d.id
+		LEFT JOIN (
+			SELECT (gone.s).heir AS id, array_agg(m ORDER BY g.id, place) AS members
+			FROM settled AS gone JOIN drawn AS g ON g.id = (gone.s).id
+			CROSS JOIN LATERAL unnest(g.members) WITH ORDINALITY AS m (m, place)
+			WHERE (gone.s).heir IS NOT NULL GROUP BY (gone.s).heir) AS i ON i.id = d.id
+		WHERE (s).heir IS NULL;
 END $$;
 COMMENT ON FUNCTION typify_draw_layer(text, double precision, double precision, typify_calibration[], text[], geometry) IS
 'The rows of typify_derive, as typify_plan says, with the placeholders of all groups legible together.';
@@ -345,7 +352,7 @@ COMMENT ON FUNCTION typify_derive(regclass, regclass, double precision, double p
 group_by: a column of lod25, of any type; each of its values is typified by itself, NULL too. links: a table or view with lod25_id and lod200_id, as typify_match returns, instead: lod200_id is the group, and buildings without a link are the NULL group; at m200 each group with an object of lod200 is one placeholder of its area.
 allocation: each_group gives every group its own count, as the aggregate does. total divides the count of the whole table at the scale by largest remainders, in proportion to what the law leaves of each group in real numbers, equal remainders by the bytes of the group''s name. A group may get none: it is one row with geom NULL, area, width and length 0, all its buildings as members.
 box: only groups that have a building whose bounding box meets that of box, each whole. groups: only these groups (an element NULL is the NULL group). The rows are the same as without either, unless options.min_gap is set.
-options.min_gap: with neither box nor groups placeholders are kept apart over the whole table. Those of different groups are not merged but shrunk, moved or, last, not drawn (geom NULL, with a WARNING). With box or groups each group is legible by itself.
+options.min_gap: with neither box nor groups placeholders are kept apart over the whole table. Those of different groups are not merged but shrunk, moved or, last, not drawn: then their members go to the nearest placeholder of their group, and where none of a group fits it is a row that is not drawn (geom NULL, with a WARNING). With box or groups each group is legible by itself.
 barriers: a table or view of roads, rivers, railways (its column barriers_geom_column, lines or polygons) that nothing is merged across: those that are drawn at the scale. The same as the option barriers, which goes without a table; calibration heeds them too.
 importance_column: a column of lod25 with numbers, the importance of each building as typify_placeholders takes it: ''Infinity'' keeps it in place and in size.
 Columns, groups of lod200 and what options keep: see typify_calibrate. lod25 and lod200 may be tables, views, materialized, partitioned or foreign tables; NULL and EMPTY geometries do not count. No row when lod25 has no building.

@@ -697,16 +697,22 @@ $$
 DECLARE
 	definition jsonb := typify_layer(layer);
 	base typify_options;
+	settled typify_settled[];
 BEGIN
 	EXECUTE format('LOCK TABLE %s IN SHARE ROW EXCLUSIVE MODE', layer);
 	IF typify_layer_has_sites(layer) THEN
-		EXECUTE format('UPDATE %1$s AS d SET geom = typify_settled_geometry(d.geom, s), area = typify_settled_area(d.area, s), '
-			'width = (s).width, length = (s).length '
-			'FROM unnest((SELECT typify_settle(id, number::integer, member_count, ST_SRID(geom), site, (SELECT $1)) '
-			'FROM (SELECT *, dense_rank() OVER (ORDER BY typify_group_key(grp)) AS number FROM %1$s WHERE site IS NOT NULL) '
-				'AS n)) AS s WHERE (s).id = d.id', layer)
+		EXECUTE format('SELECT typify_settle(id, number::integer, member_count, ST_SRID(geom), site, (SELECT $1)) '
+			'FROM (SELECT *, dense_rank() OVER (ORDER BY typify_group_key(grp)) AS number FROM %s WHERE site IS NOT NULL) AS n', layer)
+		INTO settled
 		USING typify_barrier_lines((definition->>'barriers')::regclass, (definition->>'barriers_geom_column')::name,
 			jsonb_populate_record(base, nullif(definition->'options', 'null')), NULL);
+		EXECUTE format('UPDATE %1$s AS d SET member_count = member_count + cardinality(i.members), members = d.members || i.members '
+			'FROM (SELECT (s).heir AS id, array_agg(m ORDER BY g.id, place) AS members FROM unnest($1) AS s '
+				'JOIN %1$s AS g ON g.id = (s).id CROSS JOIN LATERAL unnest(g.members) WITH ORDINALITY AS m (m, place) '
+				'WHERE (s).heir IS NOT NULL GROUP BY (s).heir) AS i WHERE i.id = d.id', layer) USING settled;
+		EXECUTE format('DELETE FROM %s AS d USING unnest($1) AS s WHERE (s).id = d.id AND (s).heir IS NOT NULL', layer) USING settled;
+		EXECUTE format('UPDATE %s AS d SET geom = typify_settled_geometry(d.geom, s), area = typify_settled_area(d.area, s), '
+			'width = (s).width, length = (s).length FROM unnest($1) AS s WHERE (s).id = d.id', layer) USING settled;
 	END IF;
 	PERFORM typify_layer_keep_shares(layer,
 		nullif(typify_layer_comment(typify_layer_index(layer, 'grp')) - 'plan' - 'state', '{}'));

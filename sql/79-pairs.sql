@@ -64,7 +64,7 @@ BEGIN
 	PERFORM typify_check_length(min_gap, 'min_gap', 'Give a length in units of the SRID; 0 finds overlaps alone.');
 	RETURN QUERY
 	SELECT CASE WHEN overlap THEN 'overlap' ELSE 'gap' END,
-		CASE WHEN overlap THEN ST_CollectionExtract(ST_Intersection(typify_valid(a), typify_valid(b)), 3)
+		CASE WHEN overlap THEN ST_Normalize(ST_CollectionExtract(ST_Intersection(typify_valid(a), typify_valid(b)), 3))
 			ELSE ST_ShortestLine(a, b) END
 	FROM typify_close_pairs(typify_polygons(typify_violations.geom), min_gap)
 	ORDER BY a_place, b_place;

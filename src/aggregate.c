@@ -147,7 +147,7 @@ add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 
 /* What is not as asked for. */
 static void
-warn_of_result(const ty_state *s, const ty_result *result)
+warn_of_result(const ty_result *result)
 {
 	size_t undrawn = result->undrawn - result->hidden;
 
@@ -164,13 +164,6 @@ warn_of_result(const ty_state *s, const ty_result *result)
 							  "there is no room for %zu placeholders, which are not drawn", result->hidden,
 							  result->hidden),
 				errhint("Use a smaller min_side, min_gap or barrier_width, or fewer barriers."));
-	if (result->collisions > 0)
-		ereport(WARNING,
-				errmsg_plural("%zu pair of kept buildings is nearer to each other than min_gap",
-							  "%zu pairs of kept buildings are nearer to each other than min_gap", result->collisions,
-							  result->collisions),
-				errdetail("The first are %lld and %lld.", (long long) s->buildings[result->colliding[0]].id,
-						  (long long) s->buildings[result->colliding[1]].id));
 }
 
 static ty_input
@@ -185,7 +178,7 @@ input_of(const ty_state *s)
 
 /* Typifies the group; the result is of the current context. The state stays as it is. */
 static void
-state_typify(const ty_state *s, ty_result *result)
+state_typify_quietly(const ty_state *s, ty_result *result)
 {
 	ty_input input = input_of(s);
 	ty_parameters parameters = s->parameters;
@@ -196,7 +189,18 @@ state_typify(const ty_state *s, ty_result *result)
 		ty_check_outlines(result, s->outlines, s->geometry_type);
 	if (s->count >= LARGE_GROUP)
 		ty_trim_memory();
-	warn_of_result(s, result);
+	warn_of_result(result);
+}
+
+/* The same, with the warning of kept buildings in each other's way. */
+static void
+state_typify(const ty_state *s, ty_result *result)
+{
+	const ty_collisions *c = &result->collisions;
+
+	state_typify_quietly(s, result);
+	ty_warn_of_collisions(c, s->buildings[c->first_pair[0]].id, s->buildings[c->first_pair[1]].id,
+						  s->buildings[c->first_beside].id);
 }
 
 /* Numbers that sort as the ids do. */
@@ -568,7 +572,8 @@ typify_sites_final(PG_FUNCTION_ARGS)
 	if (s == NULL)
 		PG_RETURN_NULL();
 	check_ids(s);
-	state_typify(s, &result);
+	/* of these typify_settle tells, once for all groups */
+	state_typify_quietly(s, &result);
 	parameters = s->parameters;
 	ty_bring_to_ground(&parameters, s->metres_per_unit);
 	array = placeholder_array(fcinfo, s, &result, &parameters);

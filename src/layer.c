@@ -2,8 +2,9 @@
  * layer.c - the aggregate typify_settle: the placeholders of all groups of a layer, each group legible by itself, are
  * made legible together.
  *
- * Sites of different groups are not joined, so that who belongs to which placeholder is settled before. The answer
- * lists the placeholders that something was done to; the others stay as they are.
+ * Sites of different groups are not joined. Of one that does not fit the members go to the nearest of its group that is
+ * drawn, which stays where it is. The answer lists the placeholders that something was done to; the others stay as they
+ * are.
  */
 #include "layer.h"
 
@@ -18,6 +19,7 @@
 #include "backend.h"
 #include "barriers.h"
 #include "core/grid.h"
+#include "core/nearest.h"
 #include "geometry.h"
 #include "options.h"
 
@@ -50,6 +52,7 @@ enum
 	SETTLED_FACTOR,
 	SETTLED_X,
 	SETTLED_Y,
+	SETTLED_HEIR,
 	SETTLED_FIELDS
 };
 
@@ -71,6 +74,10 @@ ty_site_to_numbers(const ty_site *s, bool outlined, const ty_parameters *p, doub
 	n[SITE_MOVED_X] = s->moved.x;
 	n[SITE_MOVED_Y] = s->moved.y;
 	n[SITE_SIZE] = s->size;
+	n[SITE_AXIS_X] = s->axis.x;
+	n[SITE_AXIS_Y] = s->axis.y;
+	n[SITE_RAIL] = s->rail;
+	n[SITE_BEND] = s->bend;
 	n[SITE_FIXED] = s->fixed;
 	n[SITE_OUTLINED] = outlined;
 	n[SITE_GAP] = p->min_gap;
@@ -89,6 +96,10 @@ site_of_numbers(const double *n)
 					 .shift = {n[SITE_SHIFT_X], n[SITE_SHIFT_Y]},
 					 .moved = {n[SITE_MOVED_X], n[SITE_MOVED_Y]},
 					 .size = n[SITE_SIZE],
+					 .axis = {n[SITE_AXIS_X], n[SITE_AXIS_Y]},
+					 .rail = n[SITE_RAIL],
+					 .bend = n[SITE_BEND],
+					 .row = TY_NO_ROW,
 					 .fixed = n[SITE_FIXED] != 0};
 }
 
@@ -172,6 +183,23 @@ typify_settle_transition(PG_FUNCTION_ARGS)
 
 /* --- results --- */
 
+void
+ty_warn_of_collisions(const ty_collisions *collisions, int64 a, int64 b, int64 beside)
+{
+	if (collisions->pairs > 0)
+		ereport(WARNING,
+				errmsg_plural("%zu pair of kept buildings is nearer to each other than min_gap",
+							  "%zu pairs of kept buildings are nearer to each other than min_gap", collisions->pairs,
+							  collisions->pairs),
+				errdetail("The first are %lld and %lld.", (long long) a, (long long) b));
+	if (collisions->beside_lines > 0)
+		ereport(WARNING,
+				errmsg_plural("%zu kept building is nearer to a barrier than its symbol and min_gap allow",
+							  "%zu kept buildings are nearer to a barrier than its symbol and min_gap allow",
+							  collisions->beside_lines, collisions->beside_lines),
+				errdetail("The first is %lld.", (long long) beside));
+}
+
 /* The order in which sites are settled: that of buildings at their homes, with their ids. */
 static uint32_t *
 settling_order(const layer *l)
@@ -194,10 +222,20 @@ settling_order(const layer *l)
 	return order;
 }
 
-static ty_site *
-settled_sites(const layer *l, const uint32_t *order)
+static void
+collide(void *context, uint32_t a, uint32_t b)
 {
-	ty_legibility rules = {.gap = l->gap, .lines = ty_lines_of_barriers(l->set), .line_gap = l->line_gap};
+	ty_note_collision(context, a, b);
+}
+
+static ty_site *
+settled_sites(const layer *l, const uint32_t *order, ty_collisions *collisions)
+{
+	ty_legibility rules = {.gap = l->gap,
+						   .lines = ty_lines_of_barriers(l->set),
+						   .line_gap = l->line_gap,
+						   .collide = collide,
+						   .context = collisions};
 	ty_site *sites = ty_allocate_array(&ty_backend_environment, l->count, sizeof *sites);
 
 	for (size_t i = 0; i < l->count; i++)
@@ -213,9 +251,95 @@ is_changed(const ty_site *before, const ty_site *after)
 		   after->moved.y != before->moved.y;
 }
 
+/* --- who is not drawn --- */
+
+/* The drawn sites of a group, which may take over the members of its hidden ones. */
+typedef struct heirs
+{
+	const ty_site *sites;
+	const ty_barrier_lines *lines;
+	uint32_t *site; /* [count] */
+	ty_point *centre;
+	size_t count;
+	ty_point hidden;
+} heirs;
+
+/* whether no barrier lies between the hidden site and another */
+static bool
+on_its_side(const void *context, uint32_t number)
+{
+	const heirs *h = context;
+
+	return h->lines == NULL || !ty_barrier_lines_cross(h->lines, h->hidden, h->sites[h->site[number]].home);
+}
+
+/* The heirs of the hidden sites among those of one group. */
+static void
+find_heirs_in_group(heirs *h, const uint32_t *group, size_t count, uint32_t *heir)
+{
+	const ty_environment *env = &ty_backend_environment;
+	ty_nearest tree;
+
+	h->count = 0;
+	for (size_t i = 0; i < count; i++)
+		if (h->sites[group[i]].state == TY_DRAWN)
+		{
+			h->centre[h->count] = ty_site_centre(&h->sites[group[i]]);
+			h->site[h->count++] = group[i];
+		}
+	if (h->count == 0 || h->count == count)
+		return;
+	ty_check_status(ty_nearest_build(env, h->centre, h->count, &tree));
+	for (size_t i = 0; i < count; i++)
+	{
+		if (h->sites[group[i]].state == TY_DRAWN)
+			continue;
+		CHECK_FOR_INTERRUPTS();
+		h->hidden = h->sites[group[i]].home;
+		heir[group[i]] = h->site[ty_nearest_allowed(&tree, h->hidden, on_its_side, h)];
+	}
+	ty_nearest_free(env, &tree);
+}
+
+/* For every hidden site the nearest of its group that is drawn, on its side of the barriers if there is one near. */
+static uint32_t *
+find_heirs(const layer *l, const ty_site *sites)
+{
+	const ty_environment *env = &ty_backend_environment;
+	uint32_t *heir = ty_allocate_array(env, l->count, sizeof *heir);
+	uint32_t *order = ty_allocate_array(env, l->count, sizeof *order);
+	uint64_t *keys = ty_allocate_array(env, l->count, sizeof *keys);
+	heirs h = {.sites = sites,
+			   .lines = ty_lines_of_barriers(l->set),
+			   .site = ty_allocate_array(env, l->count, sizeof(uint32_t)),
+			   .centre = ty_allocate_array(env, l->count, sizeof(ty_point))};
+	size_t run;
+
+	for (size_t i = 0; i < l->count; i++)
+	{
+		heir[i] = TY_NO_SITE;
+		order[i] = (uint32_t) i;
+		keys[i] = sites[i].group;
+	}
+	ty_check_status(ty_sort_keys(env, keys, order, l->count));
+	for (size_t first = 0; first < l->count; first += run)
+	{
+		run = 1;
+		while (first + run < l->count && keys[first + run] == keys[first])
+			run++;
+		find_heirs_in_group(&h, order + first, run, heir);
+	}
+	pfree(order);
+	pfree(keys);
+	pfree(h.site);
+	pfree(h.centre);
+	return heir;
+}
+
 /* A rectangle is drawn anew; an outline by the scale and the shift that take the old place to the new one. */
 static HeapTuple
-settled_row(TupleDesc shape, const layer *l, const layer_row *before, const ty_site *after, void *polygon)
+settled_row(TupleDesc shape, const layer *l, const layer_row *before, const ty_site *after, const layer_row *heir,
+			void *polygon)
 {
 	ty_sides sides = ty_site_sides(after), old = ty_site_sides(&before->site);
 	ty_point centre = ty_site_centre(after), from = ty_site_centre(&before->site);
@@ -228,6 +352,7 @@ settled_row(TupleDesc shape, const layer *l, const layer_row *before, const ty_s
 
 	p.ratio = sides.width / sides.length;
 	nulls[SETTLED_GEOM] = !drawn || before->outlined;
+	nulls[SETTLED_HEIR] = heir == NULL;
 	values[SETTLED_ID] = Int64GetDatum(before->id);
 	values[SETTLED_DRAWN] = BoolGetDatum(drawn);
 	values[SETTLED_GEOM] = nulls[SETTLED_GEOM] ? (Datum) 0 : ty_write_rectangle(polygon, &p, l->srid);
@@ -236,11 +361,13 @@ settled_row(TupleDesc shape, const layer *l, const layer_row *before, const ty_s
 	values[SETTLED_FACTOR] = Float8GetDatum(factor);
 	values[SETTLED_X] = Float8GetDatum(centre.x - factor * from.x);
 	values[SETTLED_Y] = Float8GetDatum(centre.y - factor * from.y);
+	values[SETTLED_HEIR] = heir == NULL ? (Datum) 0 : Int64GetDatum(heir->id);
 	return heap_form_tuple(shape, values, nulls);
 }
 
 static Datum
-settled_array(FunctionCallInfo fcinfo, const layer *l, const uint32_t *order, const ty_site *sites, size_t *hidden)
+settled_array(FunctionCallInfo fcinfo, const layer *l, const uint32_t *order, const ty_site *sites,
+			  const uint32_t *heir, size_t *hidden)
 {
 	Oid element = get_element_type(get_func_rettype(fcinfo->flinfo->fn_oid));
 	TupleDesc shape = lookup_rowtype_tupdesc(element, -1);
@@ -255,10 +382,10 @@ settled_array(FunctionCallInfo fcinfo, const layer *l, const uint32_t *order, co
 		HeapTuple tuple;
 
 		CHECK_FOR_INTERRUPTS();
-		*hidden += sites[i].state != TY_DRAWN;
+		*hidden += sites[i].state != TY_DRAWN && heir[i] == TY_NO_SITE;
 		if (!is_changed(&row->site, &sites[i]))
 			continue;
-		tuple = settled_row(shape, l, row, &sites[i], polygon);
+		tuple = settled_row(shape, l, row, &sites[i], heir[i] == TY_NO_SITE ? NULL : &l->rows[order[heir[i]]], polygon);
 		array = accumArrayResult(array, heap_copy_tuple_as_datum(tuple, shape), false, element, CurrentMemoryContext);
 		heap_freetuple(tuple);
 	}
@@ -272,19 +399,24 @@ Datum
 typify_settle_final(PG_FUNCTION_ARGS)
 {
 	const layer *l = PG_ARGISNULL(0) ? NULL : (const layer *) PG_GETARG_POINTER(0);
-	uint32_t *order;
+	uint32_t *order, *heir;
 	ty_site *sites;
 	size_t hidden;
+	ty_collisions collisions = {0};
 	Datum array;
 
 	layer_context(fcinfo);
 	if (l == NULL || l->count == 0 || !(l->gap > 0))
 		PG_RETURN_NULL();
 	order = settling_order(l);
-	sites = settled_sites(l, order);
-	array = settled_array(fcinfo, l, order, sites, &hidden);
+	sites = settled_sites(l, order, &collisions);
+	heir = find_heirs(l, sites);
+	array = settled_array(fcinfo, l, order, sites, heir, &hidden);
+	ty_warn_of_collisions(&collisions, l->rows[order[collisions.first_pair[0]]].id,
+						  l->rows[order[collisions.first_pair[1]]].id, l->rows[order[collisions.first_beside]].id);
 	pfree(order);
 	pfree(sites);
+	pfree(heir);
 	if (hidden > 0)
 		ereport(WARNING,
 				errmsg_plural("%zu placeholder does not fit between those of other groups and is not drawn",

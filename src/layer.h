@@ -26,6 +26,10 @@ enum
 	SITE_MOVED_X,
 	SITE_MOVED_Y,
 	SITE_SIZE,
+	SITE_AXIS_X,
+	SITE_AXIS_Y,
+	SITE_RAIL,
+	SITE_BEND,
 	SITE_FIXED,
 	SITE_OUTLINED,
 	SITE_GAP,
@@ -36,5 +40,8 @@ enum
 /* p: in ground units */
 extern void ty_site_to_numbers(const ty_site *site, bool outlined, const ty_parameters *p,
 							   double numbers[SITE_NUMBERS]);
+
+/* Kept buildings that are too near to each other, the first two by their ids, or to a barrier, the first by its id. */
+extern void ty_warn_of_collisions(const ty_collisions *collisions, int64 a, int64 b, int64 beside);
 
 #endif

@@ -92,7 +92,7 @@ number_buildings(const gathering *g, partition *p)
 	uint32 *order = ty_allocate_array(&ty_backend_environment, g->count, sizeof(uint32));
 	ty_rows rows;
 
-	ty_check_status(ty_rows_of_group(&ty_backend_environment, g->buildings, g->count, order, &rows));
+	ty_check_status(ty_rows_of_group(&ty_backend_environment, g->buildings, g->count, (ty_parting){0}, order, &rows));
 	for (size_t rank = 0; rank < g->count; rank++)
 	{
 		p->row[g->origin[order[rank]]] = rows.span[rank].row;

@@ -1,6 +1,6 @@
 # chroot.sh - fresh Debian systems to prove things in; to be sourced by a script that runs as root.
-# MIRROR: where packages come from, by default where this machine gets its own. SCRIPT: debootstrap's, for suites that it does not know. APT_DIR: a folder that
-# keeps downloaded packages between runs.
+# MIRROR: where packages come from, by default where this machine gets its own. SCRIPT: debootstrap's, for suites that
+# it does not know. APT_DIR: a folder that keeps downloaded packages between runs.
 
 set -euo pipefail
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -15,15 +15,32 @@ trap 'exit 130' HUP INT TERM
 APT_DIR=${APT_DIR:-$PLACE/packages}
 mkdir -p "$APT_DIR"
 
-# make_system SUITE DIR [PACKAGES,WITH,COMMAS [OPTION...]]: a minimal system whose apt gets through as ours does
+# outside SYSTEM: lets its apt and npm get through as ours do, also from behind a proxy with a certificate authority of
+# its own. Certificates lie where the package ca-certificates takes them from when it is installed.
+outside() {
+	local system=$1 name registry
+	apt-config dump | grep -E '^Acquire::(http|https|Check|Retries)' >"$system/etc/apt/apt.conf.d/00outside" || true
+	cp -L /etc/resolv.conf "$system/etc/resolv.conf"
+	echo "127.0.0.1 localhost $(uname -n)" >"$system/etc/hosts"
+	if [ -d /usr/local/share/ca-certificates ]; then
+		cp -RL /usr/local/share/ca-certificates "$system/usr/local/share/"
+	fi
+	# read at every login, by sudo too
+	for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY; do
+		if [ -n "${!name:-}" ]; then echo "$name=${!name}"; fi
+	done >>"$system/etc/environment"
+	if registry=$(npm config get registry 2>/dev/null); then
+		echo "npm_config_registry=$registry" >>"$system/etc/environment"
+	fi
+}
+
+# make_system SUITE DIR [PACKAGES,WITH,COMMAS [OPTION...]]: a minimal system
 make_system() {
 	local suite=$1 system=$2 include=${3:-} log=$PLACE/debootstrap.log
 	shift $(($# < 3 ? $# : 3))
 	debootstrap --variant=minbase --cache-dir="$APT_DIR" ${include:+--include="$include"} "$@" "$suite" "$system" \
 		"$MIRROR" ${SCRIPT:-} >"$log" 2>&1 || { tail -n 20 "$log" >&2; exit 1; }
-	apt-config dump | grep -E '^Acquire::(http|https|Check|Retries)' >"$system/etc/apt/apt.conf.d/00outside" || true
-	cp -L /etc/resolv.conf "$system/etc/resolv.conf"
-	echo "127.0.0.1 localhost $(uname -n)" >"$system/etc/hosts"
+	outside "$system"
 }
 
 # in_system DIR COMMAND...: runs it there; when it ends, so do its servers and mounts

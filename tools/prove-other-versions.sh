@@ -1,8 +1,8 @@
 #!/bin/bash
-# prove-other-versions.sh [SUITE...] - builds and runs the regression tests in fresh systems that come with other
-# versions of PostgreSQL: Debian trixie 17 and sid 18, Ubuntu jammy 14 and noble 16 (these when UBUNTU_KEYRING names
-# the keyring of the package ubuntu-keyring and UBUNTU_MIRROR where to get them). Runs as root, needs debootstrap and
-# the network; removes everything it made.
+# prove-other-versions.sh [SUITE...] - builds and runs the tests that need a server in fresh systems that come with
+# other versions of PostgreSQL: Debian trixie 17 and sid 18, Ubuntu jammy 14 and noble 16 (these when UBUNTU_KEYRING
+# names the keyring of the package ubuntu-keyring and UBUNTU_MIRROR where to get them). Runs as root, needs debootstrap
+# and the network; removes everything it made. TYPIFY_DATA: a folder of real data that the tests may read there.
 . "$(dirname "$0")/chroot.sh"
 UBUNTU_KEYRING=${UBUNTU_KEYRING:-/usr/share/keyrings/ubuntu-archive-keyring.gpg}
 UBUNTU_MIRROR=${UBUNTU_MIRROR:-}
@@ -17,7 +17,7 @@ prove_suite() {
 		*) make_system "$1" "$system" make ;;
 	esac
 	copy_checkout "$system/srv/typify"
-	in_system "$system" /srv/typify/tools/installcheck.sh
+	in_system "$system" env ${TYPIFY_DATA:+TYPIFY_DATA=/srv/data} /srv/typify/tools/test-version.sh
 }
 
 status=0

@@ -691,7 +691,8 @@ mesh_ground(const ty_environment *env, size_t n, ground *g)
 }
 
 ty_status
-ty_rows_of_group(const ty_environment *env, const ty_building *buildings, size_t n, uint32_t *order, ty_rows *rows)
+ty_rows_of_group(const ty_environment *env, const ty_building *buildings, size_t n, ty_parting parting, uint32_t *order,
+				 ty_rows *rows)
 {
 	ground g = {0};
 	ty_grid grid;
@@ -707,7 +708,7 @@ ty_rows_of_group(const ty_environment *env, const ty_building *buildings, size_t
 	if (status == TY_OK)
 	{
 		ty_traits(buildings, order, &g.mesh, &grid, g.trait);
-		status = ty_rows_detect(env, &g.mesh, g.trait, (ty_parting){0}, rows);
+		status = ty_rows_detect(env, &g.mesh, g.trait, parting, rows);
 	}
 	free_ground(env, &g);
 	return status;

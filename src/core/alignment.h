@@ -57,8 +57,8 @@ void ty_traits(const ty_building *buildings, const uint32_t *order, const ty_mes
  * The rows of a group by themselves: its canonical order, its mesh, its rows. n >= 1; order holds n entries of the
  * caller's. The rows are the same as the collapse of the group finds.
  */
-ty_status ty_rows_of_group(const ty_environment *env, const ty_building *buildings, size_t n, uint32_t *order,
-						   ty_rows *rows);
+ty_status ty_rows_of_group(const ty_environment *env, const ty_building *buildings, size_t n, ty_parting parting,
+						   uint32_t *order, ty_rows *rows);
 
 /* ---- in the collapse ---- */
 
@@ -93,17 +93,30 @@ typedef struct ty_drawn_rows
 	const uint32_t *label;					 /* [n] placeholder by rank */
 	const uint32_t *keeper;					 /* [placeholders] the rank that each vertex went on under */
 	const struct ty_barrier_lines *barriers; /* on the ground, that nobody is laid across; NULL: none */
+	/*
+	 * Gets what is laid out as a row, or would be, of rows of which the law leaves two at least: in proportion to those
+	 * of all n buildings. Of others who stands on the line is chance. NULL: nobody asks.
+	 */
+	struct ty_site_rows *pieces;
+	size_t placeholders, n;
 } ty_drawn_rows;
 
 struct ty_placeholder;
 struct ty_barrier_lines;
+struct ty_site_rows;
 
 /*
  * Lays out the placeholders of each row, once they have places: on the line through the means of their members in the
  * row, at equal spacing along it, the ends at their means; nobody farther from its own mean than four of these. Rows
  * whose placeholders are all single buildings stay as they are. A row is laid out in pieces where it comes to a kept
  * building, or where a barrier lies between two placeholders or between one and the mean of its members in the row.
+ * Room for drawn->pieces: ty_pieces_begin.
  */
 ty_status ty_rows_lay_out(const ty_environment *env, const ty_drawn_rows *drawn, struct ty_placeholder *placeholders);
+
+/* Room for what so many placeholders are of these rows. What it returns: ty_pieces_free. */
+ty_status ty_pieces_begin(const ty_environment *env, const ty_rows *rows, size_t placeholders,
+						  struct ty_site_rows *pieces);
+void ty_pieces_free(const ty_environment *env, struct ty_site_rows *pieces);
 
 #endif

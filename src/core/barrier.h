@@ -116,4 +116,26 @@ ty_barrier_gap ty_barrier_lines_gap(const ty_barrier_lines *lines, const ty_poin
 /* As ty_barriers_cross for any two places on the ground, but for the rounding of floating-point arithmetic. */
 bool ty_barrier_lines_cross(const ty_barrier_lines *lines, ty_point a, ty_point b);
 
+/* Segments of lines by number, to be looked at again and again. */
+typedef struct ty_segments
+{
+	uint32_t *number; /* [count], from the environment of the lines; the caller's to release */
+	size_t count, capacity;
+} ty_segments;
+
+/* Lists those that come nearer to a place than limit. TY_TOO_MANY: they cannot be numbered. */
+ty_status ty_barrier_lines_near(const ty_barrier_lines *lines, ty_point p, double limit, ty_segments *near);
+/* As ty_barrier_lines_cross, where no others can lie between. */
+bool ty_barrier_segments_cross(const ty_barrier_lines *lines, const uint32_t *segment, size_t count, ty_point a,
+							   ty_point b);
+
+static inline void
+ty_segment_ends(const ty_barrier_lines *lines, uint32_t segment, ty_point *a, ty_point *b)
+{
+	const ty_barrier_run *run = &lines->runs[segment / (TY_RUN_POINTS - 1)];
+
+	*a = ty_run_point(run, segment % (TY_RUN_POINTS - 1));
+	*b = ty_run_point(run, segment % (TY_RUN_POINTS - 1) + 1);
+}
+
 #endif

@@ -200,6 +200,13 @@ is_left_of_line(ty_point a, ty_point b, ty_point moved)
 	return b.y != a.y ? b.y < a.y : b.x > a.x;
 }
 
+static inline bool
+lies_on_path(const path *p, ty_point from, ty_point to)
+{
+	return is_left_of_path(p, from) != is_left_of_path(p, to) &&
+		   is_left_of_line(from, to, p->a) != is_left_of_line(from, to, p->b);
+}
+
 static bool
 path_passes(void *context, size_t thing)
 {
@@ -211,8 +218,7 @@ path_passes(void *context, size_t thing)
 	{
 		ty_point next = ty_run_point(run, i);
 
-		if (is_left_of_path(p, last) != is_left_of_path(p, next) &&
-			is_left_of_line(last, next, p->a) != is_left_of_line(last, next, p->b))
+		if (lies_on_path(p, last, next))
 			return false;
 		last = next;
 	}
@@ -229,4 +235,98 @@ ty_barrier_lines_cross(const ty_barrier_lines *lines, ty_point a, ty_point b)
 	p.box = ty_box_of(fmin(a.x, b.x) - lines->origin.x, fmin(a.y, b.y) - lines->origin.y,
 					  fmax(a.x, b.x) - lines->origin.x, fmax(a.y, b.y) - lines->origin.y);
 	return !ty_boxes_search(&lines->boxes, path_may_meet, path_passes, &p);
+}
+
+bool
+ty_barrier_segments_cross(const ty_barrier_lines *lines, const uint32_t *segment, size_t count, ty_point a, ty_point b)
+{
+	path p = {.lines = lines, .a = a, .b = b};
+	ty_point low = {fmin(a.x, b.x), fmin(a.y, b.y)}, high = {fmax(a.x, b.x), fmax(a.y, b.y)};
+
+	if (a.x == b.x && a.y == b.y)
+		return false;
+	for (size_t i = 0; i < count; i++)
+	{
+		ty_point from, to;
+
+		ty_segment_ends(lines, segment[i], &from, &to);
+		if ((from.x > high.x && to.x > high.x) || (from.x < low.x && to.x < low.x) ||
+			(from.y > high.y && to.y > high.y) || (from.y < low.y && to.y < low.y))
+			continue;
+		if (lies_on_path(&p, from, to))
+			return true;
+	}
+	return false;
+}
+
+/* ---- what is near a place ---- */
+
+#define FIRST_NEAR 64
+
+typedef struct near_search
+{
+	const ty_barrier_lines *lines;
+	ty_point place;
+	double limit;
+	ty_box box;
+	ty_segments *near;
+	ty_status status;
+} near_search;
+
+static bool
+may_be_near(const void *context, const ty_box *box)
+{
+	return ty_box_meets(&((const near_search *) context)->box, box);
+}
+
+static ty_status
+list_segment(const ty_environment *env, ty_segments *near, uint32_t number)
+{
+	if (near->count == near->capacity)
+	{
+		size_t capacity = near->capacity == 0 ? FIRST_NEAR : 2 * near->capacity;
+		uint32_t *numbers = near->number == NULL ? ty_allocate_array(env, capacity, sizeof *numbers)
+												 : ty_reallocate_array(env, near->number, capacity, sizeof *numbers);
+
+		if (numbers == NULL)
+			return TY_NO_MEMORY;
+		near->number = numbers;
+		near->capacity = capacity;
+	}
+	near->number[near->count++] = number;
+	return TY_OK;
+}
+
+static bool
+list_of_run(void *context, size_t thing)
+{
+	near_search *search = context;
+	const ty_barrier_run *run = &search->lines->runs[thing];
+	ty_point last = ty_run_point(run, 0);
+
+	for (uint32_t i = 1; i < run->points && search->status == TY_OK; i++)
+	{
+		ty_point next = ty_run_point(run, i);
+
+		if (length(nearest_on_line(last, next, search->place), search->place) < search->limit)
+			search->status =
+				list_segment(search->lines->env, search->near, (uint32_t) thing * (TY_RUN_POINTS - 1) + i - 1);
+		last = next;
+	}
+	return search->status == TY_OK;
+}
+
+ty_status
+ty_barrier_lines_near(const ty_barrier_lines *lines, ty_point p, double limit, ty_segments *near)
+{
+	const ty_point origin = lines->origin;
+	near_search search = {.lines = lines, .place = p, .limit = limit, .near = near, .status = TY_OK};
+
+	near->count = 0;
+	if (lines->count > UINT32_MAX / (TY_RUN_POINTS - 1))
+		return TY_TOO_MANY;
+	search.box =
+		ty_box_of(p.x - limit - origin.x, p.y - limit - origin.y, p.x + limit - origin.x, p.y + limit - origin.y);
+	ty_boxes_search(&lines->boxes, may_be_near, list_of_run, &search);
+	return search.status;
 }

@@ -24,8 +24,8 @@ ty_box_of(double low_x, double low_y, double high_x, double high_y)
 	return (ty_box){float_below(low_x), float_below(low_y), -float_below(-high_x), -float_below(-high_y)};
 }
 
-static void
-enlarge(ty_box *box, const ty_box *by)
+void
+ty_box_enlarge(ty_box *box, const ty_box *by)
 {
 	box->low_x = by->low_x < box->low_x ? by->low_x : box->low_x;
 	box->low_y = by->low_y < box->low_y ? by->low_y : box->low_y;
@@ -63,7 +63,23 @@ ty_boxes_raise(ty_boxes *boxes)
 			if (i % TY_BOX_FAN == 0)
 				box[i / TY_BOX_FAN] = below[i];
 			else
-				enlarge(&box[i / TY_BOX_FAN], &below[i]);
+				ty_box_enlarge(&box[i / TY_BOX_FAN], &below[i]);
+	}
+}
+
+void
+ty_boxes_enlarge(ty_boxes *boxes, size_t thing)
+{
+	const ty_box *box = &boxes->box[thing];
+
+	for (int level = 1; level < boxes->levels; level++)
+	{
+		ty_box *above = &boxes->box[boxes->first[level] + (thing /= TY_BOX_FAN)];
+
+		if (above->low_x <= box->low_x && above->low_y <= box->low_y && above->high_x >= box->high_x &&
+			above->high_y >= box->high_y)
+			return;
+		ty_box_enlarge(above, box);
 	}
 }
 

@@ -30,10 +30,15 @@ typedef struct ty_boxes
 /* The smallest box of floats that holds these two corners, which may be infinite but not NaN. */
 ty_box ty_box_of(double low_x, double low_y, double high_x, double high_y);
 
+/* The box grows to hold another. */
+void ty_box_enlarge(ty_box *box, const ty_box *by);
+
 /* Room for the boxes of so many things; the caller fills in box[0 .. count), then calls ty_boxes_raise. */
 ty_status ty_boxes_begin(const ty_environment *env, size_t count, ty_boxes *boxes);
 /* Builds the levels above the things. */
 void ty_boxes_raise(ty_boxes *boxes);
+/* The box of a thing has changed: those above it grow to hold it. */
+void ty_boxes_enlarge(ty_boxes *boxes, size_t thing);
 void ty_boxes_free(const ty_environment *env, ty_boxes *boxes);
 
 static inline bool
@@ -48,7 +53,7 @@ typedef bool (*ty_box_test)(const void *context, const ty_box *box);
 typedef bool (*ty_box_visit)(void *context, size_t thing);
 
 /* Searches the tree; the order of visits is that of the things. False when a visit ended it. */
-static inline bool
+static inline __attribute__((always_inline)) bool
 ty_boxes_search(const ty_boxes *boxes, ty_box_test test, ty_box_visit visit, void *context)
 {
 	struct

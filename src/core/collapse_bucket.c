@@ -87,10 +87,10 @@ take_chunk(ty_run *run, uint32_t next)
 	return taken;
 }
 
-ty_status
-ty_bucket_add(ty_run *run, uint32_t v)
+static ty_status
+put(ty_run *run, ty_addition a)
 {
-	ty_bucket *b = &run->queue.bucket[ty_bucket_of(&run->queue, run->queue.key[v])];
+	ty_bucket *b = &run->queue.bucket[a.bucket];
 
 	if (b->count % TY_CHUNK_VERTICES == 0)
 	{
@@ -100,8 +100,40 @@ ty_bucket_add(ty_run *run, uint32_t v)
 			return TY_NO_MEMORY;
 		b->first = c;
 	}
-	run->queue.chunk[b->first].vertex[b->count++ % TY_CHUNK_VERTICES] = v;
+	run->queue.chunk[b->first].vertex[b->count++ % TY_CHUNK_VERTICES] = a.vertex;
 	return TY_OK;
+}
+
+/* Puts into their buckets what has been added. */
+static ty_status
+put_added(ty_run *run)
+{
+	ty_queue *queue = &run->queue;
+	ty_status status = TY_OK;
+
+	for (size_t i = 0; i < queue->added_count; i++)
+	{
+		uint32_t c = queue->bucket[queue->added[i].bucket].first;
+
+		if (c != TY_NONE)
+			__builtin_prefetch(&queue->chunk[c], 1);
+	}
+	for (size_t i = 0; i < queue->added_count && status == TY_OK; i++)
+		status = put(run, queue->added[i]);
+	queue->added_count = 0;
+	return status;
+}
+
+/* A bucket and its chunk have to be waited for one after the other: many are fetched side by side. */
+ty_status
+ty_bucket_add(ty_run *run, uint32_t v)
+{
+	ty_queue *queue = &run->queue;
+	uint32_t b = ty_bucket_of(queue, queue->key[v]);
+
+	__builtin_prefetch(&queue->bucket[b], 1);
+	queue->added[queue->added_count++] = (ty_addition){v, b};
+	return queue->added_count < TY_ADDED ? TY_OK : put_added(run);
 }
 
 /* how many vertices the first chunk of a bucket holds */
@@ -154,29 +186,25 @@ fetch_stars(const ty_run *run, const uint32_t *v, size_t count, bool to_collapse
 
 		for (size_t i = 0; i < walks; i++)
 		{
-			uint32_t h = at[i], w = ty_target(&run->mesh, h);
-			uint32_t beyond = ty_opposite(&run->mesh, ty_next_in_triangle(h));
+			uint32_t h = at[i], w, beyond = ty_opposite(&run->mesh, ty_next_in_triangle(h));
 
-			if (w != TY_GHOST)
-				__builtin_prefetch(&run->vertex[w]);
-			if (w != TY_GHOST && span != NULL && !to_collapse)
+			h = ty_step_around(&run->mesh, h, &w);
+			__builtin_prefetch(&run->vertex[w]); /* whatever it is: no address is wrong here */
+			__builtin_prefetch(&run->queue.key[w]);
+			if (span != NULL && !to_collapse)
 				__builtin_prefetch(&span[w]);
 			if (to_collapse)
 			{
 				uint32_t apex = ty_origin(&run->mesh, ty_previous_in_triangle(outer[i])); /* fetched one step ago */
 
-				if (apex != TY_GHOST)
-					__builtin_prefetch(&run->vertex[apex]);
+				__builtin_prefetch(&run->vertex[apex]);
 				__builtin_prefetch(&triangles[ty_triangle_of(beyond)]);
 			}
-			h = ty_next_around(&run->mesh, h);
-			if (h == first[i])
-				continue;
 			__builtin_prefetch(&triangles[ty_triangle_of(h)]);
-			first[going] = first[i];
 			at[going] = h;
 			outer[going] = beyond;
-			going++;
+			first[going] = first[i];
+			going += h != first[going];
 		}
 		walks = going;
 	}
@@ -225,6 +253,9 @@ look_at_slice(ty_run *run, uint32_t b, const uint32_t *slice, size_t count)
 	lookout looked = {.count = 0};
 	ty_status status = TY_OK;
 
+	for (size_t i = 0; i < count; i++)
+		if (is_waiting(run, slice[i], b))
+			__builtin_prefetch(&run->vertex[slice[i]]);
 	for (size_t i = 0; i < count && status == TY_OK; i++)
 	{
 		if (is_waiting(run, slice[i], b))
@@ -257,6 +288,19 @@ end_of_bucket(const ty_queue *queue, uint32_t b)
 }
 
 /*
+ * The edge at which v, of a bucket, is to be looked at: the least of all, also of those that its other ends cover, for
+ * waiting vertices cover each other's. But not one below the limit so far, of a partner while a batch is gathered: the
+ * limit would stay where it is, and nothing below it be found.
+ */
+static ty_edge
+edge_to_wait_for(const ty_run *run, uint32_t v)
+{
+	ty_edge e = ty_waiting_edge(run, v);
+
+	return ty_is_near(&run->queue, e) ? ty_next_edge(run, v, ty_waiting_floor(run, v)) : e;
+}
+
+/*
  * The limit below which about PART of the vertices of bucket b lie, between its ends and not below the limit so far;
  * the upper end where that cannot be found out. (While a batch is gathered there may be edges below a bucket.)
  */
@@ -276,7 +320,7 @@ limit_of_part(const ty_run *run, uint32_t b)
 			uint32_t v = queue->chunk[c].vertex[i];
 
 			if (met++ % every == 0 && is_waiting(run, v, b))
-				sample[samples++] = ty_next_edge(run, v, ty_waiting_floor(run, v));
+				sample[samples++] = edge_to_wait_for(run, v);
 		}
 	if (samples == 0)
 		return end;
@@ -295,13 +339,13 @@ ty_bucket_drain(ty_run *run, bool *found)
 	uint32_t slice[SLICE];
 	size_t count = 0;
 	ty_bucket bucket;
-	ty_status status = TY_OK;
+	ty_status status = put_added(run);
 
 	while (b < queue->buckets && queue->bucket[b].first == TY_NONE)
 		b++;
 	*found = b < queue->buckets;
-	if (!*found)
-		return TY_OK;
+	if (!*found || status != TY_OK)
+		return status;
 	queue->next = b;
 	queue->passed = queue->limit;
 	queue->limit = queue->bucket[b].count > GIANT(run->n) ? limit_of_part(run, b) : end_of_bucket(queue, b);

@@ -34,6 +34,14 @@ typedef struct ty_bucket
 	uint32_t count; /* of vertices: not in the chunk, which would have to be waited for */
 } ty_bucket;
 
+/* a vertex on its way into a bucket */
+typedef struct ty_addition
+{
+	uint32_t vertex, bucket;
+} ty_addition;
+
+#define TY_ADDED 32
+
 /* The priority order of the edges: see the head of collapse_queue.c. */
 typedef struct ty_queue
 {
@@ -47,6 +55,9 @@ typedef struct ty_queue
 	ty_edge passed;	   /* the limit before: entries in buckets are above it */
 	ty_bucket *bucket; /* [buckets] those before `next` are empty */
 	uint32_t buckets, next;
+	ty_addition
+		added[TY_ADDED]; /* put into their buckets many at a time, before the next one is emptied at the latest */
+	size_t added_count;
 	int shift; /* a key's bits below a bucket's number */
 	ty_chunk *chunk;
 	uint32_t used_chunks, free_chunk;
@@ -136,10 +147,12 @@ ty_status ty_queue_least(ty_run *run, ty_edge *least, uint32_t *h);
 void ty_queue_part(ty_run *run, uint32_t a, uint32_t b);
 /* whether a and b have been taken out as partners */
 bool ty_queue_partners(const ty_run *run, uint32_t a, uint32_t b);
-/* the least edge at v, barriers aside; cost INFINITY when there is none */
+/* the least edge at v, barriers and what its other end covers aside; cost INFINITY when there is none */
 ty_edge ty_least_edge(const ty_run *run, uint32_t v);
-/* What takes the place of an entry of v: with influences the least of its edges after that, else the least of all. */
+/* What takes the place of an entry of v: with influences the least of its edges after that, else as ty_least_edge. */
 ty_edge ty_next_edge(const ty_run *run, uint32_t v, ty_edge above);
+/* the least edge that the entry of a vertex in a bucket may stand for */
+ty_edge ty_waiting_edge(const ty_run *run, uint32_t v);
 /* what comes before the entry of a vertex in a bucket */
 ty_edge ty_waiting_floor(const ty_run *run, uint32_t v);
 /* the mesh's edge_made: covers an edge between two vertices that keep their keys */
@@ -154,7 +167,7 @@ void ty_queue_sort(ty_run *run, double low);
 
 /* Makes empty buckets for n vertices. */
 ty_status ty_bucket_begin(ty_run *run);
-/* Puts a vertex into the bucket of its key. */
+/* Adds a vertex to the bucket of its key. */
 ty_status ty_bucket_add(ty_run *run, uint32_t v);
 /* Empties the next bucket that is not: its vertices get their least edges as keys, and so a place in the queue. */
 ty_status ty_bucket_drain(ty_run *run, bool *found);

@@ -4,9 +4,14 @@
  * Entries of the queue are edges, or lower bounds for the edges of a vertex. The one invariant is: for every edge
  * of the mesh there is an entry of one of its ends that is not greater, in the order (cost, smaller rank, larger
  * rank), a bound coming before all edges of its cost. So the least entry is a lower bound for all edges. If it is
- * an edge that still exists, it is the least of all; if not, its vertex is looked at again and gets its least edge
- * as its entry. A collapse therefore has to give an entry to one vertex only, the merged one, which covers all its
- * edges; edges that flips make between two others are covered as they are made.
+ * an edge that still exists, it is the least of all; if not, its vertex is looked at again and gets another entry.
+ * A collapse therefore has to give an entry to one vertex only, the merged one; edges that flips make between two
+ * others are covered as they are made.
+ *
+ * Without influences a vertex that gets an entry leaves edges aside that their other ends cover: its entry is the least
+ * of the rest, none where there is no rest. So the invariant holds, whatever the order, for an end that gets a greater
+ * entry later is answerable for the edge then. To enter the least of all its edges meant to look again half as often
+ * more.
  *
  * A vertex's key is the cost of its entry, rounded down to a float. Entries are not removed when a vertex gets
  * another: one that differs from the key counts no longer. (One that equals it by chance does no harm: it is
@@ -179,39 +184,107 @@ ty_queue_partners(const ty_run *run, uint32_t a, uint32_t b)
 }
 
 /*
- * The hottest loop of all. Which edge is the least would be guessed wrong twice a star, so there is no branch: costs,
- * which are not negative, compare as their bits do, and among edges of one vertex ty_before's order is that of the
- * other ends.
+ * Whether w has an entry that is not greater than an edge of its at that cost. Where the keys are alike the entry may
+ * be the greater one, but not if the edge lies beyond what is near: w's is near then, or waits in a bucket and counts
+ * as a bound of the key's own cost, or is about to be looked at again. Partners' keys are below all others.
  */
-static ty_edge
-least_plain_edge(const ty_run *run, uint32_t v)
+static inline bool
+covers(const ty_queue *queue, uint32_t w, double cost)
 {
-	uint32_t first = run->vertex[v].edge, h = first, other = TY_NONE;
-	int64_t least = INT64_MAX;
-	ty_edge e = {INFINITY, v, TY_NONE};
+	return queue->key[w] < key_of_cost(cost) + (cost > queue->limit.cost);
+}
+
+/* The least edge at v by ty_before's order, which among edges of one vertex is that of the other ends. */
+static __attribute__((noinline)) ty_edge
+compare_exactly(const ty_run *run, uint32_t v, bool uncovered)
+{
+	uint32_t first = run->vertex[v].edge, h = first, w;
+	ty_edge least = {INFINITY, v, TY_NONE};
 
 	do
 	{
-		uint32_t w = ty_target(&run->mesh, h);
-
+		h = ty_step_around(&run->mesh, h, &w);
 		if (w != TY_GHOST)
 		{
-			double cost = ty_plain_cost(run, v, w);
-			int64_t bits;
-			bool before;
+			ty_edge e = {ty_plain_cost(run, v, w), v, w};
 
-			memcpy(&bits, &cost, sizeof bits);
-			before = (bits < least) | ((bits == least) & (w < other));
-			least = before ? bits : least;
-			other = before ? w : other;
+			if (!(uncovered && covers(&run->queue, w, e.cost)) && ty_before(e, least))
+				least = e;
 		}
-	} while ((h = ty_next_around(&run->mesh, h)) != first);
-	if (other != TY_NONE)
+	} while (h != first);
+	return least;
+}
+
+/* how far rounding may bring apart the square of a cost and what is computed without its root */
+#define NEARLY (1 + 1e-14)
+
+static inline int64_t
+bits_of(double number)
+{
+	int64_t bits;
+
+	memcpy(&bits, &number, sizeof bits);
+	return bits;
+}
+
+static inline double
+number_of(int64_t bits)
+{
+	double number;
+
+	memcpy(&number, &bits, sizeof number);
+	return number;
+}
+
+/* whether w covers an edge with that square of a cost, for certain; beyond: it lies beyond what is near */
+static inline bool
+covers_squared(const ty_queue *queue, uint32_t w, double squared, bool beyond)
+{
+	int32_t above = queue->key[w] + !beyond; /* no larger key than w's has a cost of this or more */
+	float cost;
+
+	memcpy(&cost, &above, sizeof cost);
+	return (double) cost * cost * NEARLY <= squared;
+}
+
+/*
+ * The hottest loop of all. Which edge is the least would be guessed wrong twice a star, so there is no branch: squared
+ * costs, which are not negative, compare as their bits do. They are not exact; so where two are nearly alike all are
+ * compared once more. Roots would take as long as all the rest.
+ */
+static inline __attribute__((always_inline)) ty_edge
+least_plain_edge(const ty_run *run, uint32_t v, bool uncovered)
+{
+	const ty_vertex *p = &run->vertex[v];
+	uint32_t first = p->edge, h = first, other = TY_NONE, w;
+	int64_t least = INT64_MAX, second = INT64_MAX;
+	double limit = run->queue.limit.cost * run->queue.limit.cost * NEARLY;
+	double factor_less_w = run->s_u * ((double) p->size - 2) + 1;
+
+	do
 	{
-		memcpy(&e.cost, &least, sizeof least);
-		e.other = other;
-	}
-	return e;
+		h = ty_step_around(&run->mesh, h, &w);
+		if (w != TY_GHOST)
+		{
+			const ty_vertex *q = &run->vertex[w];
+			double dx = q->position.x - p->position.x, dy = q->position.y - p->position.y;
+			double factor = factor_less_w + run->s_u * (double) (int32_t) q->size;
+			double squared = factor * factor * (dx * dx + dy * dy);
+			int64_t bits = bits_of(squared), larger;
+
+			if (uncovered)
+				bits |= covers_squared(&run->queue, w, squared, squared > limit) ? INT64_MAX : 0;
+			other ^= (other ^ w) & -(uint32_t) (bits < least); /* gcc makes a branch of ?: here */
+			larger = bits < least ? least : bits;
+			least = bits < least ? bits : least;
+			second = larger < second ? larger : second;
+		}
+	} while (h != first);
+	if (other == TY_NONE)
+		return (ty_edge){INFINITY, v, TY_NONE};
+	if (number_of(second) <= number_of(least) * NEARLY)
+		return compare_exactly(run, v, uncovered);
+	return (ty_edge){ty_plain_cost(run, v, other), v, other};
 }
 
 static __attribute__((noinline)) ty_edge
@@ -243,7 +316,16 @@ ty_next_edge(const ty_run *run, uint32_t v, ty_edge above)
 {
 	if (run->mesh.live < 2)
 		return (ty_edge){INFINITY, v, TY_NONE};
-	return run->influence == NULL ? least_plain_edge(run, v) : least_influenced_edge(run, v, above);
+	return run->influence == NULL ? least_plain_edge(run, v, true) : least_influenced_edge(run, v, above);
+}
+
+/* Covered ones too: waiting vertices cover each other's. */
+ty_edge
+ty_waiting_edge(const ty_run *run, uint32_t v)
+{
+	if (run->influence == NULL && run->mesh.live >= 2)
+		return least_plain_edge(run, v, false);
+	return ty_next_edge(run, v, ty_waiting_floor(run, v));
 }
 
 ty_edge

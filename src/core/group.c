@@ -257,15 +257,31 @@ prepare_median(const ty_environment *env, ty_group *g, size_t n, const ty_result
 
 /* Lays out what is left of rows. */
 static ty_status
-lay_out_rows(const ty_environment *env, const ty_group *g, const uint32_t *label, size_t n, ty_result *result)
+lay_out_rows(const ty_environment *env, ty_group *g, const uint32_t *label, size_t n, ty_result *result)
 {
+	bool kept_apart = g->parameters->min_gap > 0;
 	uint32_t *keeper = ty_allocate_array(env, result->count, sizeof *keeper);
-	ty_drawn_rows drawn = {&g->rows, g->buildings, g->order, label, keeper, g->barriers};
+	ty_drawn_rows drawn = {.rows = &g->rows,
+						   .buildings = g->buildings,
+						   .order = g->order,
+						   .label = label,
+						   .keeper = keeper,
+						   .barriers = g->barriers,
+						   .pieces = kept_apart ? &g->pieces : NULL,
+						   .placeholders = result->count,
+						   .n = n};
 	size_t next = 0;
-	ty_status status;
+	ty_status status = TY_OK;
 
 	if (keeper == NULL)
 		return TY_NO_MEMORY;
+	if (kept_apart)
+		status = ty_pieces_begin(env, &g->rows, result->count, &g->pieces);
+	if (status != TY_OK)
+	{
+		ty_release(env, keeper);
+		return status;
+	}
 	for (size_t rank = 0; rank < n; rank++)
 		if (label[rank] == next)
 			keeper[next++] = (uint32_t) rank;
@@ -417,6 +433,20 @@ ty_group_begin(const ty_environment *env, const ty_input *input, const ty_parame
 	return status == TY_OK ? weigh_group(env, g, input->n) : status;
 }
 
+/*
+ * Where nothing is merged no rows are found on the way, but those that are to be kept apart stay rows. The canonical
+ * order comes out as it is.
+ */
+static ty_status
+find_rows_alone(const ty_environment *env, ty_group *g, const ty_barriers *barriers, size_t n, ty_stop stop)
+{
+	ty_parting parting = {barriers->count > 0 ? barrier_parts : NULL, barriers};
+
+	if (!(g->parameters->min_gap > 0) || stop.count < n || stop.min_distance > 0)
+		return TY_OK;
+	return ty_rows_of_group(env, g->buildings, n, parting, g->order, &g->rows);
+}
+
 ty_status
 ty_group_collapse(const ty_environment *env, ty_group *g, const ty_input *input, ty_stop stop, bool with_cost,
 				  ty_sequence *sequence)
@@ -440,6 +470,8 @@ ty_group_collapse(const ty_environment *env, ty_group *g, const ty_input *input,
 		influence.alignment = alignment;
 		influence.find_rows = find_rows;
 		influence.context = &search;
+		if (status == TY_OK)
+			status = find_rows_alone(env, g, &barriers, input->n, stop);
 	}
 	if (status == TY_OK)
 		status = ty_collapse_keyed(env, g->position, take_keys(g), input->n, g->parameters->s_u,
@@ -458,6 +490,7 @@ ty_group_free(const ty_environment *env, ty_group *g)
 	ty_release(env, g->area_bits);
 	ty_release(env, g->sorted);
 	ty_rows_free(env, &g->rows);
+	ty_pieces_free(env, &g->pieces);
 	*g = (ty_group){0};
 }
 

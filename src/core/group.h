@@ -55,8 +55,7 @@ typedef struct ty_result
 	ty_site *sites; /* [count] with min_gap: the placeholders as sites (legibility.h), as they are drawn; else NULL */
 	size_t undrawn; /* placeholders without size; one of sheds alone has none and does not count */
 	size_t hidden;	/* for which there was no room */
-	size_t collisions;	   /* of two kept buildings that are nearer to each other than min_gap ... */
-	uint32_t colliding[2]; /* ... the first two of them: indices into the caller's buildings */
+	ty_collisions collisions; /* of kept buildings that are too near to each other or a barrier, as indices */
 } ty_result;
 
 /*

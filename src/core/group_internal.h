@@ -28,6 +28,7 @@ typedef struct ty_group
 	uint64_t *area_bits;   /* [largest number of members] scratch of the median ... */
 	uint32_t *sorted;	   /* ... and what its sort moves along */
 	ty_rows rows;		   /* with alignment; else none */
+	ty_site_rows pieces;   /* with min_gap: of these rows, what is drawn; else none */
 } ty_group;
 
 typedef ty_group group;

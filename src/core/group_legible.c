@@ -81,7 +81,7 @@ keep_size(const ty_placeholder *q, ty_site *site)
 void
 ty_placeholder_site(const ty_parameters *p, const ty_input *input, const ty_placeholder *q, ty_site *site)
 {
-	*site = (ty_site){.ux = q->ux, .uy = q->uy, .weight = q->count, .size = 2};
+	*site = (ty_site){.ux = q->ux, .uy = q->uy, .weight = q->count, .row = TY_NO_ROW, .size = 2};
 	site->state = q->area > 0 ? TY_DRAWN : TY_HIDDEN;
 	site->fixed = q->kept;
 	if (q->kept)
@@ -196,7 +196,7 @@ take_over(ty_placeholder *p, const ty_site *site)
 
 	if (site->state == TY_HIDDEN)
 		p->area = p->width = p->length = 0;
-	if (site->state == TY_HIDDEN || (site->size >= 2 && site->moved.x == 0 && site->moved.y == 0))
+	if (site->state == TY_HIDDEN || (site->size >= 2 && site->moved.x == 0 && site->moved.y == 0 && !site->relaid))
 		return;
 	p->x = centre.x;
 	p->y = centre.y;
@@ -213,12 +213,9 @@ static void
 collide(void *context, uint32_t a, uint32_t b)
 {
 	joining *j = context;
-	ty_result *result = j->result;
 
-	if (result->collisions++ > 0)
-		return;
-	result->colliding[0] = result->placeholders[a].representative;
-	result->colliding[1] = result->placeholders[b].representative;
+	ty_note_collision(&j->result->collisions, j->result->placeholders[a].representative,
+					  j->result->placeholders[b].representative);
 }
 
 /* Numbers those that are left, and labels and lists the members anew. */
@@ -254,6 +251,36 @@ renumber(const joining *j, uint32_t *label, size_t n)
 	return TY_OK;
 }
 
+/* The unit vector from one end of a stretch to the other; 0 where both are the same. */
+static ty_point
+direction_between(ty_point a, ty_point b)
+{
+	double dx = b.x - a.x, dy = b.y - a.y, length = sqrt(dx * dx + dy * dy);
+
+	return length > 0 ? (ty_point){dx / length, dy / length} : (ty_point){0, 0};
+}
+
+/* Tells the sites of rows which, and which way their row goes: from the one before to the one behind. */
+static void
+put_in_rows(const ty_site_rows *rows, ty_site *sites)
+{
+	for (uint32_t row = 0; row < rows->count; row++)
+	{
+		uint32_t first = rows->first[row], count = rows->first[row + 1] - first;
+
+		for (uint32_t k = 0; k < count; k++)
+		{
+			ty_site *s = &sites[rows->site[first + k]];
+
+			s->row = row;
+			s->place = k;
+			s->bend = rows->bend[row];
+			s->axis = direction_between(sites[rows->site[first + (k > 0 ? k - 1 : 0)]].home,
+										sites[rows->site[first + (k + 1 < count ? k + 1 : k)]].home);
+		}
+	}
+}
+
 static ty_status
 prepare(joining *j, const uint32_t *label, size_t n)
 {
@@ -273,6 +300,7 @@ prepare(joining *j, const uint32_t *label, size_t n)
 	}
 	for (size_t k = 0; k < j->result->count; k++)
 		ty_placeholder_site(j->group->parameters, j->input, &j->result->placeholders[k], &j->sites[k]);
+	put_in_rows(&j->group->pieces, j->sites);
 	return TY_OK;
 }
 
@@ -284,6 +312,7 @@ ty_make_group_legible(const ty_environment *env, ty_group *g, uint32_t *label, s
 	ty_legibility rules = {.gap = g->parameters->min_gap,
 						   .lines = g->barriers,
 						   .line_gap = 0.5 * g->parameters->barrier_width + g->parameters->min_gap,
+						   .rows = g->pieces.count > 0 ? &g->pieces : NULL,
 						   .join = join,
 						   .collide = collide,
 						   .context = &j};

@@ -20,9 +20,10 @@
 
 #define SLACK 0.01		  /* of the gap: what is aimed at beyond it, so that pushing comes to an end */
 #define ROUNDING_STEPS 16 /* units in the last place of coordinates and sides: what drawing may round away */
-#define ROUNDS 8 /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
-#define POOL_PER_SITE 32  /* numbers; a site in a town has 20 near it, of which 2 are in its way */
-#define NOT_CACHED UINT32_MAX
+#define ROUNDS 8		  /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
+#define NEAR_EACH 32	  /* sites that are kept in mind; one in a town has 20 near it, of which 2 are in its way */
+#define LINES_EACH 40	  /* segments that are kept in mind; in a town with all its ways there are 20 in reach */
+#define SPARSE 64		  /* of so many sites one in a conflict is few */
 
 /* ---- sites ---- */
 
@@ -62,63 +63,61 @@ ty_place_box(ty_ladder *l, uint32_t i)
 	const ty_site *s = &l->sites[i];
 	ty_sides sides = ty_site_sides(s);
 	double factor = s->size >= 2 || !(s->full.length > 0) ? 1 : sides.length / s->full.length;
+	ty_oblong box = {s->home.x - l->origin.x + s->moved.x + factor * s->shift.x,
+					 s->home.y - l->origin.y + s->moved.y + factor * s->shift.y,
+					 s->ux,
+					 s->uy,
+					 0.5 * sides.length,
+					 0.5 * sides.width};
 
-	l->box[i] = (ty_oblong){s->home.x - l->origin.x + s->moved.x + factor * s->shift.x,
-							s->home.y - l->origin.y + s->moved.y + factor * s->shift.y,
-							s->ux,
-							s->uy,
-							0.5 * sides.length,
-							0.5 * sides.width};
-	l->radius[i] = half_diagonal(sides);
+	l->body[i] = (ty_body){box, half_diagonal(sides), s->state == TY_DRAWN, s->fixed};
+}
+
+void
+ty_move_box(ty_ladder *l, uint32_t i)
+{
+	const ty_site *s = &l->sites[i];
+
+	if (s->shift.x != 0 || s->shift.y != 0)
+	{
+		ty_place_box(l, i);
+		return;
+	}
+	l->body[i].box.x = s->home.x - l->origin.x + s->moved.x;
+	l->body[i].box.y = s->home.y - l->origin.y + s->moved.y;
 }
 
 /* how far from home any of the site can come to lie, and half of the target */
 static double
-reach_of(const ty_ladder *l, const ty_site *s)
+reach_of(const ty_ladder *l, uint32_t i)
 {
-	double bound = s->fixed ? 0 : fmax(l->gap, 0.5 * fmax(s->full.length, s->full.width));
+	const ty_site *s = &l->sites[i];
+	double bound = s->fixed ? 0 : fmax(ty_free_way(l, i), 0.5 * fmax(s->full.length, s->full.width));
 
 	return half_diagonal(s->full) + sqrt(s->shift.x * s->shift.x + s->shift.y * s->shift.y) + bound + 0.5 * l->target;
 }
 
-void
+ty_status
 ty_enter_site(ty_ladder *l, uint32_t i)
 {
 	const ty_site *s = &l->sites[i];
+	ty_status status;
 
 	ty_place_box(l, i);
-	ty_vicinity_insert(&l->near, i, (ty_point){s->home.x - l->origin.x, s->home.y - l->origin.y}, reach_of(l, s));
-	l->by_line[i] = ty_line_in_reach(l, i);
+	l->by_line[i] = false;
+	status = ty_meet_lines(l, i, reach_of(l, i));
+	if (status == TY_OK && l->by_line[i])
+		status = ty_meet_lines(l, i, reach_of(l, i));
+	ty_vicinity_insert(&l->near, i, (ty_point){s->home.x - l->origin.x, s->home.y - l->origin.y}, reach_of(l, i));
+	return status;
 }
 
 void
 ty_hide_site(ty_ladder *l, uint32_t i)
 {
 	l->sites[i].state = TY_HIDDEN;
+	l->body[i].drawn = false;
 	ty_vicinity_remove(&l->near, i);
-}
-
-/*
- * Keeps what was found near the site: as long as no disc comes to touch its own, it stays true, for discs are about
- * homes and hold all that can be reached from there. A full pool is emptied. False: there is more than the pool holds.
- */
-static bool
-cache(ty_ladder *l, uint32_t i)
-{
-	size_t count = l->near.found_count;
-
-	if (l->pool_count + count + 1 > l->pool_capacity)
-	{
-		memset(l->cached, 0xff, l->n * sizeof *l->cached);
-		l->pool_count = 0;
-	}
-	if (count + 1 > l->pool_capacity)
-		return false;
-	l->cached[i] = (uint32_t) l->pool_count;
-	l->pool[l->pool_count] = (uint32_t) count;
-	memcpy(l->pool + l->pool_count + 1, l->near.found, count * sizeof *l->pool);
-	l->pool_count += count + 1;
-	return true;
 }
 
 /* What is known to be near others that the site may touch now is no longer all. */
@@ -128,64 +127,75 @@ forget_near(ty_ladder *l, uint32_t i)
 	const ty_disc *disc = &l->near.discs[i];
 	ty_status status;
 
-	if (l->pool_count == 0)
+	if (l->near_of.used == 0)
 		return TY_OK;
 	status = ty_vicinity_find(&l->near, i, (ty_point){disc->x, disc->y}, disc->radius);
-	l->cached[i] = NOT_CACHED;
+	ty_lists_forget(&l->near_of, i);
 	for (size_t m = 0; status == TY_OK && m < l->near.found_count; m++)
-		l->cached[l->near.found[m]] = NOT_CACHED;
+		ty_lists_forget(&l->near_of, l->near.found[m]);
 	return status;
 }
 
 ty_status
 ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t in_place, uint32_t *kept)
 {
-	uint32_t gone = a < b ? b : a;
+	uint32_t gone = a < b ? b : a, stays = in_place == TY_NO_SITE ? ty_stays_in_row(l, a, b) : in_place;
+	ty_site before = {.row = TY_NO_ROW};
 	ty_status status;
 
 	*kept = a < b ? a : b;
 	ty_vicinity_remove(&l->near, a);
 	ty_vicinity_remove(&l->near, b);
-	status = l->rules->join(l->rules->context, *kept, gone, in_place, &l->sites[*kept]);
+	if (stays != TY_NO_SITE)
+	{
+		ty_leave_row(l, stays == a ? b : a);
+		before = l->sites[stays];
+	}
+	status = l->rules->join(l->rules->context, *kept, gone, stays, &l->sites[*kept]);
+	ty_take_place(l, *kept, &before);
 	l->sites[gone].state = TY_JOINED;
 	l->sites[gone].into = *kept;
+	l->body[gone].drawn = false;
 	l->start[*kept] = (ty_point){0, 0};
 	l->start_size[*kept] = 2;
-	ty_enter_site(l, *kept);
+	if (status == TY_OK)
+		status = ty_enter_site(l, *kept);
 	return status == TY_OK ? forget_near(l, *kept) : status;
 }
 
 ty_status
-ty_find_near(ty_ladder *l, uint32_t i)
+ty_rehome_site(ty_ladder *l, uint32_t i, ty_point home)
 {
-	const ty_disc *disc = &l->near.discs[i];
-	ty_status status = TY_OK;
+	ty_status status;
 
-	if (l->cached[i] == NOT_CACHED)
-	{
-		status = ty_vicinity_find(&l->near, i, (ty_point){disc->x, disc->y}, disc->radius);
-		if (status != TY_OK || !cache(l, i))
-		{
-			l->list = l->near.found;
-			l->list_count = l->near.found_count;
-			return status;
-		}
-	}
-	l->list = l->pool + l->cached[i] + 1;
-	l->list_count = l->pool[l->cached[i]];
-	return TY_OK;
+	ty_vicinity_remove(&l->near, i);
+	l->sites[i].home = home;
+	l->sites[i].moved = l->start[i] = ty_rest(&l->sites[i]);
+	l->sites[i].relaid = true;
+	status = ty_enter_site(l, i);
+	return status == TY_OK ? forget_near(l, i) : status;
 }
 
-double
-ty_sites_lack(const ty_ladder *l, uint32_t a, uint32_t b, ty_point *away)
+/*
+ * What was found is kept: as long as no disc comes to touch the site's own, it stays true, for discs are about homes
+ * and hold all that can be reached from there.
+ */
+ty_status
+ty_find_near(ty_ladder *l, uint32_t i)
 {
-	double dx = l->box[b].x - l->box[a].x, dy = l->box[b].y - l->box[a].y;
-	double reach = l->radius[a] + l->radius[b] + l->target;
+	const uint32_t *list = ty_lists_get(&l->near_of, i);
 
-	if (dx * dx + dy * dy > reach * reach || !ty_is_drawn(l, a) || !ty_is_drawn(l, b) ||
-		(l->sites[a].fixed && l->sites[b].fixed))
-		return 0;
-	return ty_lack(&l->box[a], &l->box[b], l->target, away);
+	if (list == NULL)
+	{
+		ty_status status = ty_vicinity_find_touching(&l->near, i);
+
+		if (status != TY_OK)
+			return status;
+		list = ty_lists_keep(&l->near_of, i, l->near.found, l->near.found_count);
+	}
+	l->list = list == NULL ? l->near.found : list + 1;
+	l->list_count = list == NULL ? l->near.found_count : list[0];
+	return l->by_line[i] ? ty_recall_lines(l, i) : TY_OK;
 }
 
 void
@@ -220,9 +230,9 @@ note_conflict(ty_ladder *l, uint32_t a, uint32_t b, double lack)
 static ty_status
 collect_of_site(ty_ladder *l, uint32_t i)
 {
-	ty_point away;
-	double lack = ty_line_lack(l, i, &away);
 	ty_status status = ty_find_near(l, i);
+	ty_point away;
+	double lack = status == TY_OK ? ty_line_lack(l, i, &away) : 0;
 
 	if (status == TY_OK && (ty_is_line_conflict(l, lack) || ty_is_across(l, i)))
 		status = note_conflict(l, i, i, lack);
@@ -289,7 +299,7 @@ freeze(ty_ladder *l, uint32_t i)
 	ty_place_box(l, i);
 }
 
-/* Which of two goes where one has to: not the fixed one, the one with more conflicts, the lighter, the later. */
+/* Which of two goes where one has to: not the fixed one, not one of a row, the one with more conflicts, the lighter, the later. */
 static uint32_t
 lesser(const ty_ladder *l, uint32_t a, uint32_t b)
 {
@@ -297,14 +307,25 @@ lesser(const ty_ladder *l, uint32_t a, uint32_t b)
 
 	if (s->fixed != t->fixed)
 		return s->fixed ? b : a;
+	if (ty_on_rail(s) != ty_on_rail(t))
+		return ty_on_rail(s) ? b : a;
 	if (l->degree[a] != l->degree[b])
 		return l->degree[a] > l->degree[b] ? a : b;
 	return s->weight < t->weight ? a : b;
 }
 
+/* What is done to the sites of conflicts in one go. */
+typedef enum touch
+{
+	UNTOUCHED = 0,
+	WAITING, /* in a conflict with one that is to be resolved: that may help */
+	CHOSEN,	 /* the conflict is to be resolved ... */
+	RESOLVED /* ... and has been */
+} touch;
+
 /* Joins the site to its nearest neighbour on its side of the lines or, if it has none there, across. */
 static ty_status
-join_nearest(ty_ladder *l, uint32_t i)
+join_nearest(ty_ladder *l, uint32_t i, uint8_t *touched)
 {
 	uint32_t nearest, kept;
 	bool across;
@@ -313,6 +334,7 @@ join_nearest(ty_ladder *l, uint32_t i)
 	if (status == TY_OK && nearest != TY_NO_SITE)
 	{
 		status = ty_join_sites(l, i, nearest, across ? nearest : TY_NO_SITE, &kept);
+		touched[kept] = RESOLVED;
 		ty_activate(l, kept);
 	}
 	else if (status == TY_OK)
@@ -322,10 +344,17 @@ join_nearest(ty_ladder *l, uint32_t i)
 
 /* A conflict of two sites, or of one with a line (a and b are the same). */
 static ty_status
-resolve(ty_ladder *l, uint32_t a, uint32_t b)
+resolve(ty_ladder *l, uint32_t a, uint32_t b, uint8_t *touched)
 {
 	uint32_t goes = a == b ? a : lesser(l, a, b);
+	ty_point way;
+	ty_status status;
 
+	/* rows that have given way may have been moved as a whole, or laid out anew */
+	if (a != b && l->rules->rows != NULL && !ty_is_conflict(l, ty_sites_lack(l, a, b, &way)))
+		return TY_OK;
+	if (ty_resolve_rows(l, a, b, &status))
+		return status;
 	if (l->rules->join == NULL)
 	{
 		if (l->sites[a].group == l->sites[b].group && !(l->frozen[a] && l->frozen[b]))
@@ -339,43 +368,75 @@ resolve(ty_ladder *l, uint32_t a, uint32_t b)
 	}
 	if (a != b && ty_may_join(l, a, b))
 	{
-		ty_status status = ty_join_sites(l, a, b, TY_NO_SITE, &goes);
-
+		status = ty_join_sites(l, a, b, TY_NO_SITE, &goes);
 		ty_activate(l, goes);
 		return status;
 	}
-	return join_nearest(l, goes);
+	return join_nearest(l, goes, touched);
 }
 
-/* What is done to the sites of conflicts in one go. */
-typedef enum touch
-{
-	UNTOUCHED = 0,
-	WAITING, /* in a conflict with one that was resolved: that may have helped */
-	RESOLVED
-} touch;
-
+/*
+ * Of every neighbourhood the worst conflict, in the order of the first of its two sites: so what is resolved one after
+ * the other lies together. What is chosen and how many stand first in order.
+ */
 static ty_status
-resolve_in_order(ty_ladder *l, const uint32_t *order, uint8_t *touched)
+choose_worst(ty_ladder *l, uint32_t *order, uint8_t *touched, size_t *chosen)
 {
-	ty_status status = TY_OK;
+	uint64_t *keys = ty_allocate_array(l->env, l->conflict_count, sizeof *keys);
+	ty_status status = keys == NULL ? TY_NO_MEMORY : TY_OK;
 
+	*chosen = 0;
 	for (size_t k = 0; status == TY_OK && k < l->conflict_count; k++)
 	{
 		const ty_conflict *c = &l->conflicts[order[k]];
 
 		if (touched[c->a] == UNTOUCHED && touched[c->b] == UNTOUCHED)
 		{
-			if (ty_is_drawn(l, c->a) && ty_is_drawn(l, c->b))
-				status = resolve(l, c->a, c->b);
-			touched[c->a] = touched[c->b] = RESOLVED;
+			touched[c->a] = touched[c->b] = CHOSEN;
+			keys[*chosen] = c->a;
+			order[(*chosen)++] = order[k];
 		}
-		else if (touched[c->a] == RESOLVED && touched[c->b] == UNTOUCHED)
+		else if (touched[c->a] == CHOSEN && touched[c->b] == UNTOUCHED)
 			touched[c->b] = WAITING;
-		else if (touched[c->b] == RESOLVED && touched[c->a] == UNTOUCHED)
+		else if (touched[c->b] == CHOSEN && touched[c->a] == UNTOUCHED)
 			touched[c->a] = WAITING;
 	}
+	if (status == TY_OK)
+		status = ty_sort_keys(l->env, keys, order, *chosen);
+	ty_release(l->env, keys);
 	return status;
+}
+
+/* A site that was joined to the nearest in the meantime is another one by now. */
+static ty_status
+resolve_chosen(ty_ladder *l, const uint32_t *order, size_t chosen, uint8_t *touched)
+{
+	ty_status status = TY_OK;
+
+	for (size_t k = 0; status == TY_OK && k < chosen; k++)
+	{
+		const ty_conflict *c = &l->conflicts[order[k]];
+
+		if (ty_interrupted_at(l->env, k + 1))
+			return TY_INTERRUPTED;
+		if (touched[c->a] == RESOLVED || touched[c->b] == RESOLVED || !ty_is_drawn(l, c->a) || !ty_is_drawn(l, c->b))
+			continue;
+		touched[c->a] = touched[c->b] = RESOLVED;
+		status = resolve(l, c->a, c->b, touched);
+	}
+	return status;
+}
+
+/* Lists next in ascending order where that does not take longer than to look at those that stand in it. */
+static void
+sort_next(ty_ladder *l)
+{
+	if (l->next_count < l->n / SPARSE)
+		return;
+	l->next_count = 0;
+	for (size_t i = 0; i < l->n; i++)
+		if (l->listed[i])
+			l->next[l->next_count++] = (uint32_t) i;
 }
 
 /* Resolves the worst conflict of every neighbourhood. What is active next is everybody who is in a conflict. */
@@ -384,6 +445,7 @@ resolve_worst(ty_ladder *l, uint8_t *touched)
 {
 	uint32_t *order = ty_allocate_array(l->env, l->conflict_count, sizeof *order);
 	ty_status status = order == NULL ? TY_NO_MEMORY : sort_conflicts(l, order);
+	size_t chosen = 0;
 
 	l->next_count = 0;
 	for (size_t k = 0; k < l->conflict_count; k++)
@@ -394,12 +456,17 @@ resolve_worst(ty_ladder *l, uint8_t *touched)
 		l->degree[l->conflicts[k].b]++;
 	}
 	if (status == TY_OK)
-		status = resolve_in_order(l, order, touched);
-	for (size_t k = 0; k < l->conflict_count; k++)
+		status = choose_worst(l, order, touched, &chosen);
+	if (status == TY_OK)
+		status = resolve_chosen(l, order, chosen, touched);
+	if (status == TY_OK)
+		status = ty_lay_out_rows(l);
+	for (size_t k = 0; k < l->next_count; k++)
 	{
-		touched[l->conflicts[k].a] = touched[l->conflicts[k].b] = UNTOUCHED;
-		l->degree[l->conflicts[k].a] = l->degree[l->conflicts[k].b] = 0;
+		touched[l->next[k]] = UNTOUCHED;
+		l->degree[l->next[k]] = 0;
 	}
+	sort_next(l);
 	ty_release(l->env, order);
 	return status;
 }
@@ -423,7 +490,7 @@ ty_next_round(ty_ladder *l)
 static void
 activate_all(ty_ladder *l)
 {
-	l->next_count = 0;
+	ty_next_round(l);
 	for (size_t i = 0; i < l->n; i++)
 		if (l->sites[i].state == TY_DRAWN)
 			ty_activate(l, (uint32_t) i);
@@ -446,12 +513,13 @@ climb(ty_ladder *l, uint8_t *touched)
 		if (status != TY_OK || l->conflict_count == 0)
 			break;
 		status = resolve_worst(l, touched);
+		ty_vicinity_fit(&l->near);
 		ty_next_round(l);
 	}
 	return status;
 }
 
-/* Tells of fixed sites that are too near to each other. */
+/* Tells of fixed sites that are too near to each other, or to a line. */
 static ty_status
 tell_collisions(ty_ladder *l)
 {
@@ -461,6 +529,8 @@ tell_collisions(ty_ladder *l)
 	{
 		if (!ty_is_drawn(l, i) || !l->sites[i].fixed)
 			continue;
+		if (ty_fixed_by_line(l, i))
+			l->rules->collide(l->rules->context, i, i);
 		status = ty_find_near(l, i);
 		for (size_t m = 0; status == TY_OK && m < l->list_count; m++)
 		{
@@ -468,7 +538,7 @@ tell_collisions(ty_ladder *l)
 			ty_point away;
 
 			if (j > i && ty_is_drawn(l, j) && l->sites[j].fixed &&
-				ty_is_conflict(l, ty_lack(&l->box[i], &l->box[j], l->target, &away)))
+				ty_is_conflict(l, ty_lack(&l->body[i].box, &l->body[j].box, l->target, &away)))
 				l->rules->collide(l->rules->context, i, j);
 		}
 	}
@@ -480,10 +550,12 @@ static ty_status
 run(ty_ladder *l)
 {
 	uint8_t *touched = ty_allocate_array(l->env, l->n, sizeof *touched);
-	ty_status status = touched == NULL ? TY_NO_MEMORY : ty_thin_out(l);
+	ty_status status = touched == NULL ? TY_NO_MEMORY : ty_thin_rows(l);
 
 	if (touched != NULL)
 		memset(touched, 0, l->n * sizeof *touched);
+	if (status == TY_OK)
+		status = ty_thin_out(l);
 	for (bool again = true, relented = false; status == TY_OK && again;)
 	{
 		activate_all(l);
@@ -500,76 +572,84 @@ run(ty_ladder *l)
 	return status;
 }
 
+void
+ty_note_collision(ty_collisions *collisions, uint32_t a, uint32_t b)
+{
+	if (a == b)
+	{
+		if (collisions->beside_lines++ == 0)
+			collisions->first_beside = a;
+	}
+	else if (collisions->pairs++ == 0)
+	{
+		collisions->first_pair[0] = a;
+		collisions->first_pair[1] = b;
+	}
+}
+
 /* ---- set-up ---- */
 
 static ty_status
 allocate_ladder(ty_ladder *l)
 {
+	ty_status status = ty_lists_begin(l->env, l->n, NEAR_EACH, &l->near_of);
+
+	if (status == TY_OK && l->rules->lines != NULL)
+		status = ty_lists_begin(l->env, l->n, LINES_EACH, &l->lines_of);
 	l->conflict_capacity = 256;
-	l->pool_capacity = l->n < UINT32_MAX / POOL_PER_SITE ? POOL_PER_SITE * l->n : UINT32_MAX - 1;
-	l->box = ty_allocate_array(l->env, l->n, sizeof *l->box);
-	l->radius = ty_allocate_array(l->env, l->n, sizeof *l->radius);
+	l->body = ty_allocate_array(l->env, l->n, sizeof *l->body);
 	l->start = ty_allocate_array(l->env, l->n, sizeof *l->start);
 	l->start_size = ty_allocate_array(l->env, l->n, sizeof *l->start_size);
 	l->frozen = ty_allocate_array(l->env, l->n, sizeof *l->frozen);
 	l->active = ty_allocate_array(l->env, l->n, sizeof *l->active);
-	l->cached = ty_allocate_array(l->env, l->n, sizeof *l->cached);
 	l->by_line = ty_allocate_array(l->env, l->n, sizeof *l->by_line);
-	l->pool = ty_allocate_array(l->env, l->pool_capacity, sizeof *l->pool);
 	l->next = ty_allocate_array(l->env, l->n, sizeof *l->next);
 	l->listed = ty_allocate_array(l->env, l->n, sizeof *l->listed);
 	l->degree = ty_allocate_array(l->env, l->n, sizeof *l->degree);
 	l->conflicts = ty_allocate_array(l->env, l->conflict_capacity, sizeof *l->conflicts);
-	if (l->box == NULL || l->radius == NULL || l->start == NULL || l->start_size == NULL || l->frozen == NULL ||
-		l->active == NULL || l->next == NULL || l->cached == NULL || l->by_line == NULL || l->pool == NULL ||
-		l->listed == NULL || l->degree == NULL || l->conflicts == NULL)
+	if (l->body == NULL || l->start == NULL || l->start_size == NULL || l->frozen == NULL || l->active == NULL ||
+		l->next == NULL || l->by_line == NULL || l->listed == NULL || l->degree == NULL || l->conflicts == NULL)
 		return TY_NO_MEMORY;
-	memset(l->cached, 0xff, l->n * sizeof *l->cached);
 	memset(l->frozen, 0, l->n * sizeof *l->frozen);
 	memset(l->degree, 0, l->n * sizeof *l->degree);
 	memset(l->listed, 0, l->n * sizeof *l->listed);
-	return TY_OK;
+	return status;
 }
 
 static void
 free_ladder(ty_ladder *l)
 {
 	ty_vicinity_free(&l->near);
-	ty_release(l->env, l->box);
-	ty_release(l->env, l->radius);
+	ty_release(l->env, l->body);
 	ty_release(l->env, l->start);
 	ty_release(l->env, l->start_size);
 	ty_release(l->env, l->frozen);
 	ty_release(l->env, l->active);
-	ty_release(l->env, l->cached);
 	ty_release(l->env, l->by_line);
-	ty_release(l->env, l->pool);
+	ty_lists_free(&l->near_of);
+	ty_lists_free(&l->lines_of);
+	ty_release(l->env, l->segments.number);
 	ty_release(l->env, l->next);
 	ty_release(l->env, l->listed);
 	ty_release(l->env, l->degree);
 	ty_release(l->env, l->conflicts);
 }
 
-/* The box of the sites that are drawn, and the smallest and largest reach. TY_NOT_FINITE: of what no map is made. */
+/* Where the sites that are drawn begin, and with what room for rounding. TY_NOT_FINITE: of what no map is made. */
 static ty_status
-measure_sites(ty_ladder *l, ty_point *high, double *smallest)
+measure_sites(ty_ladder *l)
 {
 	double largest = 0, place = 0, rounding;
 
-	*smallest = INFINITY;
 	l->origin = (ty_point){INFINITY, INFINITY};
-	*high = (ty_point){-INFINITY, -INFINITY};
 	for (size_t i = 0; i < l->n; i++)
 	{
 		const ty_site *s = &l->sites[i];
-		double reach = half_diagonal(s->full);
 
 		if (s->state != TY_DRAWN)
 			continue;
-		*smallest = fmin(*smallest, reach);
-		largest = fmax(largest, reach);
+		largest = fmax(largest, half_diagonal(s->full));
 		l->origin = (ty_point){fmin(l->origin.x, s->home.x), fmin(l->origin.y, s->home.y)};
-		*high = (ty_point){fmax(high->x, s->home.x), fmax(high->y, s->home.y)};
 		place = fmax(place, fmax(fabs(s->home.x), fabs(s->home.y)));
 	}
 	rounding = ROUNDING_STEPS * DBL_EPSILON * (place + largest);
@@ -580,26 +660,23 @@ measure_sites(ty_ladder *l, ty_point *high, double *smallest)
 		l->line_gap = l->rules->line_gap * (1 + 1e-9) + rounding;
 		l->line_target = l->line_gap * (1 + SLACK);
 	}
-	*smallest += 1.5 * l->target;
 	return isfinite(4 * (place + largest + l->target)) ? TY_OK : TY_NOT_FINITE;
 }
 
 static ty_status
 enter_all(ty_ladder *l)
 {
-	ty_point high;
-	double smallest;
-	ty_status status = measure_sites(l, &high, &smallest);
+	ty_status status = measure_sites(l);
 
 	if (status == TY_OK)
-		status = ty_vicinity_begin(l->env, l->n, (ty_point){0, 0},
-								   (ty_point){high.x - l->origin.x, high.y - l->origin.y}, smallest, &l->near);
+		status = ty_vicinity_begin(l->env, l->n, &l->near);
 	for (size_t i = 0; status == TY_OK && i < l->n; i++)
 	{
 		l->start[i] = l->sites[i].moved;
 		l->start_size[i] = l->sites[i].size;
+		l->body[i].drawn = false;
 		if (l->sites[i].state == TY_DRAWN)
-			ty_enter_site(l, (uint32_t) i);
+			status = ty_enter_site(l, (uint32_t) i);
 	}
 	return status;
 }

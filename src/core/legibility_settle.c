@@ -15,28 +15,44 @@
 #define SHRINK_STEP 0.25
 
 /* how many times larger than at the floor, 1 for own and 0 for least, the site is now */
-static double
+static inline double
 growth(const ty_ladder *l, uint32_t i, double floor_size)
 {
 	const ty_site *s = &l->sites[i];
-	ty_sides now = ty_site_sides(s), least = floor_size >= 1 ? s->own : s->least;
+	const ty_sides *least = floor_size >= 1 ? &s->own : &s->least;
+	ty_sides now;
 
 	if (s->fixed || !(s->size > floor_size))
 		return 0;
-	return now.width * now.length / (least.width * least.length);
+	now = ty_site_sides(s);
+	return now.width * now.length / (least->width * least->length);
 }
 
 /* The size below which a site that was moved would stand too far from home for its longer side. */
 static double
-least_size(const ty_ladder *l, const ty_site *s, double floor_size)
+least_size(const ty_ladder *l, uint32_t i, double floor_size)
 {
+	const ty_site *s = &l->sites[i];
 	double moved = sqrt(s->moved.x * s->moved.x + s->moved.y * s->moved.y);
 	ty_sides high = floor_size >= 1 ? s->full : s->own, low = floor_size >= 1 ? s->own : s->least;
 	double span = high.length - low.length;
 
-	if (moved <= l->gap || 0.5 * low.length >= moved)
+	if (moved <= ty_free_way(l, i) || 0.5 * low.length >= moved)
 		return floor_size;
 	return span > 0 ? floor_size + fmin((2 * moved - low.length) / span, 1) : s->size;
+}
+
+/* by how much less the site takes up along n at the floor than one stage above it */
+static double
+span_of_stage(const ty_ladder *l, uint32_t i, ty_point n, double floor_size)
+{
+	const ty_site *s = &l->sites[i];
+	ty_sides high = floor_size >= 1 ? s->full : s->own, low = floor_size >= 1 ? s->own : s->least;
+	ty_oblong box = l->body[i].box;
+
+	box.half_length = 0.5 * (high.length - low.length);
+	box.half_width = 0.5 * (high.width - low.width);
+	return ty_extent(&box, n);
 }
 
 /* Shrinks the site by what is lacking along n, in one step, and not below the floor. Whether it became smaller. */
@@ -44,19 +60,15 @@ static bool
 shrink(ty_ladder *l, uint32_t i, double lack, ty_point n, double floor_size)
 {
 	ty_site *s = &l->sites[i];
-	double size = s->size, least = least_size(l, s, floor_size), span;
+	double size = s->size, least, span;
 
-	s->size = floor_size;
-	ty_place_box(l, i);
-	span = ty_extent(&l->box[i], n);
-	s->size = floor_size + 1;
-	ty_place_box(l, i);
-	span = ty_extent(&l->box[i], n) - span;
-	s->size = size;
-	if (span > 0 && size > least)
-		s->size = fmax(least, size - fmin(SHRINK_STEP, lack / span));
-	else if (size > least)
-		s->size = fmax(least, size - SHRINK_STEP);
+	if (!(size > floor_size))
+		return false;
+	least = least_size(l, i, floor_size);
+	span = span_of_stage(l, i, n, floor_size);
+	if (!(size > least))
+		return false;
+	s->size = fmax(least, size - (span > 0 ? fmin(SHRINK_STEP, lack / span) : SHRINK_STEP));
 	ty_place_box(l, i);
 	return s->size < size;
 }
@@ -83,30 +95,56 @@ shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, doub
 
 #define STAGNANT 0.97 /* share of what was lacking a round before, above which another round is not worth its time */
 
+/* The way from home of a site on a rail: off its line but a little. */
+static ty_point
+on_rail(const ty_ladder *l, uint32_t i, ty_point way)
+{
+	const ty_site *s = &l->sites[i];
+	double along = way.x * s->axis.x + way.y * s->axis.y, across = way.y * s->axis.x - way.x * s->axis.y;
+	double play = ty_play(l, s);
+
+	along = ty_before_end(l, i, along);
+	across = fmax(fmin(across, s->rail + play), s->rail - play);
+	return (ty_point){along * s->axis.x - across * s->axis.y, along * s->axis.y + across * s->axis.x};
+}
+
 /* Moves the site, within its bound. How far it came along n. */
 static double
 displace(ty_ladder *l, uint32_t i, double distance, ty_point n)
 {
 	ty_site *s = &l->sites[i];
 	ty_point to = {s->moved.x + distance * n.x, s->moved.y + distance * n.y}, from = s->moved;
-	double bound = fmax(l->gap, l->box[i].half_length), length = sqrt(to.x * to.x + to.y * to.y);
+	double bound = fmax(ty_free_way(l, i), l->body[i].box.half_length), squared;
 
 	if (s->fixed || l->frozen[i])
 		return 0;
-	if (length > bound)
-		to = (ty_point){to.x * (bound / length), to.y * (bound / length)};
+	if (ty_on_rail(s))
+		to = on_rail(l, i, to);
+	squared = to.x * to.x + to.y * to.y;
+	if (squared > bound * bound)
+	{
+		double factor = bound / sqrt(squared);
+
+		to = (ty_point){to.x * factor, to.y * factor};
+	}
 	s->moved = to;
-	ty_place_box(l, i);
+	ty_move_box(l, i);
 	return (to.x - from.x) * n.x + (to.y - from.y) * n.y;
 }
 
-/* Pushes b away from a along n, and a from b, half and half; what one cannot do the other does. */
+/*
+ * Pushes b away from a along n, and a from b, half and half, or first the one in no row; what one cannot do the other
+ * does.
+ */
 static void
 push_apart(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point n)
 {
 	ty_point back = {-n.x, -n.y};
+	bool a_stays = ty_on_rail(&l->sites[a]) && !ty_on_rail(&l->sites[b]);
+	bool b_stays = ty_on_rail(&l->sites[b]) && !ty_on_rail(&l->sites[a]);
 
-	lack -= displace(l, a, 0.5 * lack, back);
+	if (!a_stays)
+		lack -= displace(l, a, b_stays ? lack : 0.5 * lack, back);
 	lack -= displace(l, b, lack, n);
 	if (lack > 0)
 		displace(l, a, lack, back);
@@ -161,8 +199,10 @@ settle_site(ty_ladder *l, uint32_t i, bool below)
 {
 	ty_status status = ty_find_near(l, i);
 
-	settle_by_line(l, i, below);
-	for (size_t m = 0; status == TY_OK && m < l->list_count; m++)
+	if (status == TY_OK)
+		settle_by_line(l, i, below);
+	/* the last first: a sweep goes up, so that those pushed ahead are still to come; it saves 0.3 % of the sites */
+	for (size_t m = l->list_count; status == TY_OK && m-- > 0;)
 	{
 		uint32_t j = l->list[m], a = i < j ? i : j, b = i < j ? j : i;
 		ty_point n;
@@ -187,8 +227,9 @@ ty_settle(ty_ladder *l, int rounds, bool below)
 		{
 			if (ty_interrupted_at(l->env, k))
 				return TY_INTERRUPTED;
-			if (ty_is_drawn(l, l->active[k]))
-				status = settle_site(l, l->active[k], below);
+			uint32_t i = l->active[k];
+			if (ty_is_drawn(l, i))
+				status = settle_site(l, i, below);
 		}
 		ty_next_round(l);
 		if (l->lacking > STAGNANT * before)
@@ -203,22 +244,33 @@ ty_settle(ty_ladder *l, int rounds, bool below)
 #define RELENT_PASSES 2 /* one may be in the other's way home */
 #define RELENT_STEPS 4	/* of halving the way */
 
-/* Whether the site, as it is now, is in a conflict with one of those that were found near it. */
 static bool
-has_room(const ty_ladder *l, uint32_t i)
+is_in_the_way(const ty_ladder *l, uint32_t i, uint32_t j)
+{
+	ty_point n;
+
+	return ty_is_conflict(l, ty_sites_lack(l, i < j ? i : j, i < j ? j : i, &n));
+}
+
+/*
+ * Whether the site, as it is now, is in no conflict with one of those that were found near it. *obstacle: who was in the
+ * way the last time, and so is asked first; TY_NO_SITE: nobody was.
+ */
+static bool
+has_room(const ty_ladder *l, uint32_t i, uint32_t *obstacle)
 {
 	ty_point way;
 
+	if (*obstacle != TY_NO_SITE && is_in_the_way(l, i, *obstacle))
+		return false;
 	if (ty_is_line_conflict(l, ty_line_lack(l, i, &way)) || ty_is_across(l, i))
 		return false;
 	for (size_t m = 0; m < l->list_count; m++)
-	{
-		uint32_t j = l->list[m];
-		ty_point n;
-
-		if (ty_is_conflict(l, ty_sites_lack(l, i < j ? i : j, i < j ? j : i, &n)))
+		if (is_in_the_way(l, i, l->list[m]))
+		{
+			*obstacle = l->list[m];
 			return false;
-	}
+		}
 	return true;
 }
 
@@ -235,13 +287,14 @@ set_site(ty_ladder *l, uint32_t i, ty_point moved, double size)
 static void
 go_home(ty_ladder *l, uint32_t i)
 {
-	ty_point moved = l->sites[i].moved;
+	ty_point moved = l->sites[i].moved, rest = ty_rest(&l->sites[i]);
 	double size = l->sites[i].size, share = 0;
+	uint32_t obstacle = TY_NO_SITE;
 
 	for (int step = 0; step < RELENT_STEPS; step++)
 	{
-		set_site(l, i, (ty_point){share * moved.x, share * moved.y}, size);
-		if (has_room(l, i))
+		set_site(l, i, (ty_point){rest.x + share * (moved.x - rest.x), rest.y + share * (moved.y - rest.y)}, size);
+		if (has_room(l, i, &obstacle))
 			return;
 		share = 0.5 * (share + 1);
 	}
@@ -254,11 +307,12 @@ grow_again(ty_ladder *l, uint32_t i)
 {
 	ty_point moved = l->sites[i].moved;
 	double size = l->sites[i].size, high = 2;
+	uint32_t obstacle = TY_NO_SITE;
 
 	for (int step = 0; step < RELENT_STEPS; step++)
 	{
 		set_site(l, i, moved, high);
-		if (has_room(l, i))
+		if (has_room(l, i, &obstacle))
 			return;
 		high = 0.5 * (size + high);
 	}
@@ -274,7 +328,8 @@ ty_relent(ty_ladder *l)
 		for (uint32_t i = 0; status == TY_OK && i < l->n; i++)
 		{
 			ty_site *s = &l->sites[i];
-			bool away = s->moved.x != 0 || s->moved.y != 0, small = s->size < 2;
+			ty_point rest = ty_rest(s);
+			bool away = s->moved.x != rest.x || s->moved.y != rest.y, small = s->size < 2;
 
 			if (ty_interrupted_at(l->env, i))
 				return TY_INTERRUPTED;

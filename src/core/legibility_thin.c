@@ -26,7 +26,7 @@ narrowest(const ty_ladder *l)
 		if (ty_is_drawn(l, (uint32_t) i))
 		{
 			least = fmin(least, l->sites[i].least.width + l->gap);
-			extent = fmax(extent, fmax(l->box[i].x, l->box[i].y));
+			extent = fmax(extent, fmax(l->body[i].box.x, l->body[i].box.y));
 		}
 	return fmax(least, extent / MOST_SQUARES);
 }
@@ -115,15 +115,19 @@ hide_lightest(ty_ladder *l, uint32_t *list, size_t count)
 	return status;
 }
 
-/* One square. Fixed sites stay in any case. */
+/* One square. Fixed sites stay in any case, and those of rows, unless these crowd. */
 static ty_status
 thin_square(ty_ladder *l, uint32_t *list, size_t count)
 {
-	size_t free = 0, before;
+	size_t free = 0, railed = 0, before;
 	ty_status status = TY_OK;
 
 	for (size_t k = 0; k < count; k++)
-		if (!l->sites[list[k]].fixed)
+		railed += ty_in_row(l, list[k]);
+	for (size_t k = 0; railed > CROWD && k < count; k++)
+		ty_dissolve_row(l, list[k]);
+	for (size_t k = 0; k < count; k++)
+		if (!l->sites[list[k]].fixed && !ty_in_row(l, list[k]))
 			list[free++] = list[k];
 	if (free <= CROWD)
 		return TY_OK;

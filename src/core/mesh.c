@@ -117,7 +117,7 @@ restore(ty_mesh *mesh, uint32_t fresh)
 
 /*
  * The stars of both ends of h, without the two triangles at h: together the star of the vertex that they merge to.
- * ring[i] is the half-edge from an end to the i-th corner, in the triangle of the corners i and i + 1,
+ * ring[i].h is the half-edge from an end to the i-th corner, in the triangle of the corners i and i + 1,
  * counter-clockwise. Read once, so that all tests run over an array instead of from triangle to triangle.
  */
 static ty_status
@@ -129,23 +129,25 @@ read_ring(ty_mesh *mesh, uint32_t h, bool *has_ghost)
 	*has_ghost = false;
 	for (int i = 0; i < 2; i++)
 	{
-		uint32_t spoke = ty_next_around(mesh, side[i]), next;
+		uint32_t spoke = ty_next_around(mesh, side[i]), next, corner;
 
-		/* the last spoke's triangle is at the edge */
-		for (; spoke != side[i] && (next = ty_next_around(mesh, spoke)) != side[i]; spoke = next)
+		for (; spoke != side[i]; spoke = next)
 		{
+			next = ty_step_around(mesh, spoke, &corner);
+			if (next == side[i])
+				break; /* the last spoke's triangle is at the edge */
 			if (mesh->ring_count == mesh->ring_capacity)
 			{
 				size_t capacity = 2 * mesh->ring_capacity;
-				uint32_t *ring = ty_reallocate_array(mesh->env, mesh->ring, capacity, sizeof *ring);
+				ty_spoke *ring = ty_reallocate_array(mesh->env, mesh->ring, capacity, sizeof *ring);
 
 				if (ring == NULL)
 					return TY_NO_MEMORY;
 				mesh->ring = ring;
 				mesh->ring_capacity = capacity;
 			}
-			mesh->ring[mesh->ring_count++] = spoke;
-			*has_ghost |= ty_target(mesh, spoke) == TY_GHOST;
+			mesh->ring[mesh->ring_count++] = (ty_spoke){spoke, corner};
+			*has_ghost |= corner == TY_GHOST;
 		}
 	}
 	return TY_OK;
@@ -155,7 +157,7 @@ read_ring(ty_mesh *mesh, uint32_t h, bool *has_ghost)
 static uint32_t
 ring_corner(const ty_mesh *mesh, size_t i)
 {
-	return ty_target(mesh, mesh->ring[i < mesh->ring_count ? i : i - mesh->ring_count]);
+	return mesh->ring[i < mesh->ring_count ? i : i - mesh->ring_count].corner;
 }
 
 /* Whether the ring, which has no ghost, is star-shaped seen from `to`: the ends can be merged by renaming. */
@@ -197,7 +199,7 @@ contract(ty_mesh *mesh, uint32_t h, uint32_t kept, uint32_t gone, ty_position to
 	uint32_t g = ty_opposite(mesh, h);
 
 	for (size_t i = 0; i < mesh->ring_count; i++)
-		mesh->triangles[ty_triangle_of(mesh->ring[i])].vertex[ty_corner_of(mesh->ring[i])] = kept;
+		mesh->triangles[ty_triangle_of(mesh->ring[i].h)].vertex[ty_corner_of(mesh->ring[i].h)] = kept;
 	close_triangle(mesh, h);
 	close_triangle(mesh, g);
 	mesh->vertex[gone].edge = TY_NONE;
@@ -251,11 +253,11 @@ push_ring(ty_mesh *mesh, uint32_t v)
 	{
 		seen c = look_at(mesh, v, ring_corner(mesh, i + 1));
 		int64_t bc = cross(b, c);
-		uint32_t edge = ty_next_in_triangle(mesh->ring[i]);
+		uint32_t edge = ty_next_in_triangle(mesh->ring[i].h);
 		uint32_t beyond = ty_origin(mesh, ty_previous_in_triangle(ty_opposite(mesh, edge)));
 
 		if (circle_holds_seen(mesh, v, a, b, c, ab, bc, cross(c, a)))
-			status = push(mesh, mesh->ring[i]);
+			status = push(mesh, mesh->ring[i].h);
 		if (status == TY_OK && beyond != TY_GHOST)
 		{
 			seen d = look_at(mesh, v, beyond);

@@ -33,6 +33,12 @@ typedef struct ty_vertex
 	uint32_t size; /* r, how many buildings it represents: the collapse's, the mesh leaves it alone */
 } ty_vertex;
 
+/* a half-edge from a vertex, and the corner that it goes to */
+typedef struct ty_spoke
+{
+	uint32_t h, corner;
+} ty_spoke;
+
 typedef struct ty_mesh
 {
 	const ty_environment *env;
@@ -44,7 +50,7 @@ typedef struct ty_mesh
 	uint32_t free_triangle;	 /* list of those given back, linked by adjacent[0], vertices TY_NONE */
 	uint32_t *stack;		 /* half-edges to examine */
 	size_t stack_count, stack_capacity;
-	uint32_t *ring; /* half-edges of a star, see mesh.c */
+	ty_spoke *ring; /* those of a star, see mesh.c */
 	size_t ring_count, ring_capacity;
 	uint64_t work; /* steps of all changes: corners of stars and holes, flips, vertices built anew */
 	/* may be NULL; told of every edge that a change makes between two old vertices (and of some that it unmakes) */
@@ -144,6 +150,20 @@ static inline uint32_t
 ty_next_around(const ty_mesh *mesh, uint32_t h)
 {
 	return ty_opposite(mesh, ty_previous_in_triangle(h));
+}
+
+/*
+ * ty_next_around(), with the target of h on the way. The corners after and before it are read off two-bit digits: a
+ * choice among three would be made by branches, guessed wrong every other time.
+ */
+static inline uint32_t
+ty_step_around(const ty_mesh *mesh, uint32_t h, uint32_t *target)
+{
+	const ty_triangle *t = &mesh->triangles[ty_triangle_of(h)];
+	uint32_t corner = ty_corner_of(h);
+
+	*target = t->vertex[9 >> 2 * corner & 3];
+	return t->adjacent[18 >> 2 * corner & 3];
 }
 
 /* the half-edge from s, which is no ghost, to t; TY_NONE when there is none */

@@ -210,13 +210,45 @@ ty_nearest_find(const ty_nearest *tree, ty_point from, double limit)
 	return best.number;
 }
 
-void
-ty_nearest_remove(ty_nearest *tree, uint32_t number)
+static void
+set_gone(ty_nearest *tree, uint32_t number, bool gone)
 {
 	size_t leaf = tree->place[number] / LEAF_SIZE;
 
-	tree->gone[number] = true;
+	tree->gone[number] = gone;
 	tree->boxes[tree->leaves + leaf] = box_of_leaf(tree, leaf);
 	for (size_t node = (tree->leaves + leaf) / 2; node > 0; node /= 2)
 		join_children(tree, node);
+}
+
+void
+ty_nearest_remove(ty_nearest *tree, uint32_t number)
+{
+	set_gone(tree, number, true);
+}
+
+uint32_t
+ty_nearest_allowed(ty_nearest *tree, ty_point from, bool (*allows)(const void *context, uint32_t number),
+				   const void *context)
+{
+	uint32_t asked[TY_NEAREST_ASKED], number, best = TY_NOBODY;
+	int count = 0;
+
+	while (count < TY_NEAREST_ASKED && best == TY_NOBODY)
+	{
+		number = ty_nearest_find(tree, from, INFINITY);
+		if (number == TY_NOBODY)
+			break;
+		if (allows(context, number))
+			best = number;
+		asked[count++] = number;
+		if (best == TY_NOBODY)
+			set_gone(tree, number, true);
+	}
+	if (best == TY_NOBODY && count > 0)
+		best = asked[0];
+	for (int k = 0; k < count; k++)
+		if (tree->gone[asked[k]])
+			set_gone(tree, asked[k], false);
+	return best;
 }

@@ -47,4 +47,9 @@ void ty_nearest_free(const ty_environment *env, ty_nearest *tree);
 uint32_t ty_nearest_find(const ty_nearest *tree, ty_point from, double limit);
 void ty_nearest_remove(ty_nearest *tree, uint32_t number);
 
+#define TY_NEAREST_ASKED 32
+/* The nearest of at most TY_NEAREST_ASKED that is allowed; else the very nearest, TY_NOBODY of none. */
+uint32_t ty_nearest_allowed(ty_nearest *tree, ty_point from, bool (*allows)(const void *context, uint32_t number),
+							const void *context);
+
 #endif

@@ -26,15 +26,19 @@ in_the_plane(const ty_oblong *a, double along, double across)
 	return (ty_point){along * a->ux - across * a->uy, along * a->uy + across * a->ux};
 }
 
-/* Two of the four separating axes: how far b is beyond the sides of a. *away leaves a along the better one. */
-static double
-beyond_sides(const ty_oblong *a, const ty_oblong *b, const relation *r, ty_point *away)
+/*
+ * Two of the four separating axes: how far b is beyond the sides of a. *away leaves a along the better one, which is
+ * along or across it.
+ */
+static inline double
+beyond_sides(const ty_oblong *a, const ty_oblong *b, const relation *r, ty_point *away, bool *is_along)
 {
 	double cosine = fabs(r->cosine), sine = fabs(r->sine);
 	double along = fabs(r->along) - (a->half_length + b->half_length * cosine + b->half_width * sine);
 	double across = fabs(r->across) - (a->half_width + b->half_length * sine + b->half_width * cosine);
 
-	if (along > across)
+	*is_along = along > across;
+	if (*is_along)
 	{
 		*away = in_the_plane(a, r->along < 0 ? -1 : 1, 0);
 		return along;
@@ -44,35 +48,38 @@ beyond_sides(const ty_oblong *a, const ty_oblong *b, const relation *r, ty_point
 }
 
 /* how far x is outside of -half .. half, 0 inside */
-static double
+static inline double
 outside(double x, double half)
 {
-	if (x > half)
-		return x - half;
-	return x < -half ? x + half : 0;
+	double above = x - half > 0 ? x - half : 0, below = x + half < 0 ? x + half : 0;
+
+	return above + below;
 }
 
 /* The corner of b that is nearest to a, which does not overlap it: squared distance, and the way there from a. */
-static double
+static inline double
 nearest_corner(const ty_oblong *a, const ty_oblong *b, const relation *r, ty_point *way)
 {
-	double least = INFINITY, along = 0, across = 0;
+	double length_along = b->half_length * r->cosine, length_across = b->half_length * r->sine;
+	double width_along = b->half_width * r->sine, width_across = b->half_width * r->cosine;
+	double least = INFINITY, along[4], across[4];
+	int nearest = 0;
 
 	for (int corner = 0; corner < 4; corner++)
 	{
-		double length = corner & 1 ? b->half_length : -b->half_length;
-		double width = corner & 2 ? b->half_width : -b->half_width;
-		double dx = outside(r->along + length * r->cosine - width * r->sine, a->half_length);
-		double dy = outside(r->across + length * r->sine + width * r->cosine, a->half_width);
+		double length = corner & 1 ? 1 : -1, width = corner & 2 ? 1 : -1;
 
-		if (dx * dx + dy * dy < least)
-		{
-			least = dx * dx + dy * dy;
-			along = dx;
-			across = dy;
-		}
+		along[corner] = outside(r->along + length * length_along - width * width_along, a->half_length);
+		across[corner] = outside(r->across + length * length_across + width * width_across, a->half_width);
 	}
-	*way = in_the_plane(a, along, across);
+	for (int corner = 0; corner < 4; corner++)
+	{
+		double squared = along[corner] * along[corner] + across[corner] * across[corner];
+
+		nearest = squared < least ? corner : nearest;
+		least = squared < least ? squared : least;
+	}
+	*way = in_the_plane(a, along[nearest], across[nearest]);
 	return least;
 }
 
@@ -95,23 +102,46 @@ corner_distance(const ty_oblong *a, const ty_oblong *b, const relation *ab, cons
 	return distance;
 }
 
+/*
+ * Whether the corner of b that is nearest to the side of a, along or across it, lies before that side: then it is as far
+ * from a as from the line through the side. beyond: along rather than across.
+ */
+static inline bool
+stands_before_side(const ty_oblong *a, const ty_oblong *b, const relation *r, bool along)
+{
+	double towards = along ? r->along : r->across;
+	double length = (along ? r->cosine : r->sine) * towards > 0 ? -b->half_length : b->half_length;
+	double width = (along ? -r->sine : r->cosine) * towards > 0 ? -b->half_width : b->half_width;
+
+	if (along)
+		return fabs(r->across + length * r->sine + width * r->cosine) <= a->half_width;
+	return fabs(r->along + length * r->cosine - width * r->sine) <= a->half_length;
+}
+
 double
 ty_lack(const ty_oblong *a, const ty_oblong *b, double gap, ty_point *away)
 {
 	relation ab = relate(a, b), ba;
 	ty_point back, way;
-	double distance = beyond_sides(a, b, &ab, away), other;
+	bool along_a, along_b;
+	double distance = beyond_sides(a, b, &ab, away, &along_a), other;
 
 	if (distance >= gap)
 		return 0;
 	ba = relate(b, a);
-	other = beyond_sides(b, a, &ba, &back);
+	other = beyond_sides(b, a, &ba, &back, &along_b);
+	if (other >= gap)
+		return 0;
+	if (distance > 0 && distance >= other && stands_before_side(a, b, &ab, along_a))
+		return gap - distance;
 	if (other > distance)
 	{
 		distance = other;
 		*away = (ty_point){-back.x, -back.y};
+		if (distance > 0 && stands_before_side(b, a, &ba, along_b))
+			return gap - distance;
 	}
-	if (distance > 0 && distance < gap)
+	if (distance > 0)
 	{
 		double exact = corner_distance(a, b, &ab, &ba, &way);
 

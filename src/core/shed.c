@@ -89,32 +89,80 @@ order_sheds(const ty_environment *env, const ty_building *shed, size_t count, ui
 	return status;
 }
 
+/* those that a shed may join: the ones that are drawn, or all where none is */
+typedef struct candidates
+{
+	size_t count;
+	uint32_t *placeholder;
+	ty_point *center;
+	const ty_barrier_lines *lines;
+	ty_point shed;
+} candidates;
+
+static ty_status
+list_candidates(const ty_environment *env, const ty_result *result, candidates *c)
+{
+	bool all = result->undrawn == result->count;
+
+	c->placeholder = ty_allocate_array(env, result->count, sizeof *c->placeholder);
+	c->center = ty_allocate_array(env, result->count, sizeof *c->center);
+	if (c->placeholder == NULL || c->center == NULL)
+		return TY_NO_MEMORY;
+	for (size_t i = 0; i < result->count; i++)
+		if (all || result->placeholders[i].area > 0)
+		{
+			c->center[c->count] = (ty_point){result->placeholders[i].x, result->placeholders[i].y};
+			c->placeholder[c->count++] = (uint32_t) i;
+		}
+	return TY_OK;
+}
+
+/* whether no barrier lies between the shed and a placeholder */
+static bool
+on_its_side(const void *context, uint32_t number)
+{
+	const candidates *c = context;
+
+	return c->lines == NULL || !ty_barrier_lines_cross(c->lines, c->shed, c->center[number]);
+}
+
 /* The placeholder of each shed, in the order given. */
 static ty_status
-find_placeholders(const ty_environment *env, const ty_building *shed, const uint32_t *order, size_t count,
+find_placeholders(const ty_environment *env, const ty_sheds *sheds, const ty_building *shed, const uint32_t *order,
 				  const ty_result *result, uint32_t *placeholder)
 {
-	ty_point *center = ty_allocate_array(env, result->count, sizeof *center);
+	candidates c = {.lines = sheds->input->barriers};
 	ty_nearest tree = {0};
-	ty_status status = TY_NO_MEMORY;
+	ty_status status = list_candidates(env, result, &c);
 
-	if (center != NULL)
+	if (status == TY_OK)
 	{
-		for (size_t i = 0; i < result->count; i++)
-			center[i] = (ty_point){result->placeholders[i].x, result->placeholders[i].y};
-		status = ty_nearest_build(env, center, result->count, &tree);
-		for (size_t k = 0; k < count && status == TY_OK; k++)
+		status = ty_nearest_build(env, c.center, c.count, &tree);
+		for (size_t k = 0; k < sheds->count && status == TY_OK; k++)
 		{
 			const ty_building *b = &shed[order[k]];
 
-			placeholder[k] = ty_nearest_find(&tree, (ty_point){b->x, b->y}, INFINITY);
+			c.shed = (ty_point){b->x, b->y};
+			placeholder[k] = c.placeholder[ty_nearest_allowed(&tree, c.shed, on_its_side, &c)];
 			if (ty_interrupted_at(env, k))
 				status = TY_INTERRUPTED;
 		}
 		ty_nearest_free(env, &tree);
 	}
-	ty_release(env, center);
+	ty_release(env, c.placeholder);
+	ty_release(env, c.center);
 	return status;
+}
+
+/* The kept buildings that collide, as indices into the caller's input. */
+static void
+number_collisions(const uint32_t *index, ty_collisions *collisions)
+{
+	if (collisions->pairs > 0)
+		for (int i = 0; i < 2; i++)
+			collisions->first_pair[i] = index[collisions->first_pair[i]];
+	if (collisions->beside_lines > 0)
+		collisions->first_beside = index[collisions->first_beside];
 }
 
 /* Takes sheds among the members: members[] becomes those of the whole input. */
@@ -125,6 +173,7 @@ join_members(const ty_sheds *sheds, const uint32_t *order, const uint32_t *place
 	const uint32_t *shed_index = sheds->index + sheds->houses.n;
 	size_t next = 0;
 
+	number_collisions(sheds->index, &result->collisions);
 	for (size_t k = 0; k < sheds->count; k++)
 		result->placeholders[placeholder[k]].count++;
 	for (size_t i = 0, house = 0; i < result->count; i++)
@@ -204,7 +253,7 @@ join(const ty_environment *env, const ty_sheds *sheds, uint32_t *order, uint32_t
 		return status;
 	if (sheds->houses.n == 0)
 		return describe_sheds(env, sheds, order, members, result);
-	status = find_placeholders(env, shed, order, sheds->count, result, placeholder);
+	status = find_placeholders(env, sheds, shed, order, result, placeholder);
 	if (status == TY_OK)
 		join_members(sheds, order, placeholder, members, result);
 	return status;

@@ -22,7 +22,8 @@ typedef struct ty_sheds
 ty_status ty_sheds_part(const ty_environment *env, const ty_input *input, const ty_parameters *p, ty_sheds *sheds);
 /*
  * result: of the houses, empty where there are none. It becomes that of the input: the sheds, at least one, are members
- * of the nearest placeholder (of equally near ones the first), behind its houses, by their canonical order.
+ * of the nearest placeholder that is drawn, on their side of the barriers if one of the 32 nearest is there (of equally
+ * near ones the first), behind its houses, by their canonical order.
  */
 ty_status ty_sheds_join(const ty_environment *env, ty_sheds *sheds, ty_result *result);
 void ty_sheds_free(const ty_environment *env, ty_sheds *sheds);

@@ -8,8 +8,20 @@ for program in node npm chromium; do
 	command -v $program >/dev/null || { echo "skipped: no $program; Debian has it"; exit 77; }
 done
 cp -r tests/web "$OWN_FOLDER/web"
-web_packages() { (cd "$OWN_FOLDER/web" && npm_config_cache=$OWN_FOLDER/npm timeout 240 npm ci >"$OWN_FOLDER/npm.log" 2>&1); }
-web_packages || { tail -n 3 "$OWN_FOLDER/npm.log"; echo "skipped: npm cannot fetch the packages of tests/web"; exit 77; }
+# Without a way to the packages there is no test; packages that do not fit together, or not this node, are a failure.
+web_packages() (
+	cd "$OWN_FOLDER/web"
+	npm_config_cache=$OWN_FOLDER/npm npm_config_engine_strict=true timeout 240 npm ci >"$OWN_FOLDER/npm.log" 2>&1
+)
+no_way='ENOTFOUND|EAI_AGAIN|ECONN[A-Z]+|ETIMEDOUT|ENETUNREACH|EHOSTUNREACH|E40[0-9]|E5[0-9][0-9]|CERT|ENOTCACHED'
+web_packages || {
+	status=$?
+	tail -n 5 "$OWN_FOLDER/npm.log"
+	code=$(sed -nE 's/^npm (ERR!|error) code //p' "$OWN_FOLDER/npm.log")
+	[ $status = 124 ] || [[ $code =~ $no_way ]] || exit 1
+	echo "skipped: npm has no way to the packages of tests/web${code:+: $code}"
+	exit 77
+}
 fresh_database typify_web tests/data/settlement.sql
 sql -o /dev/null -c 'CREATE TABLE buildings AS SELECT d.id, class, d.geom
 		FROM typify_dissolve_table($$settlement_buildings$$, 0.5) AS d JOIN settlement_buildings USING (id)' \

@@ -38,7 +38,8 @@ CREATE TEMP TABLE town AS SELECT * FROM building WHERE id IN (1, 2, 3) UNION ALL
 SELECT b.name, ST_AsText(ST_SnapToGrid(p.geom, 0.01)) AS drawn, round((ST_Area(p.geom) / ST_Area(b.geom))::numeric, 3) AS factor, p.member_count
 FROM town AS b, unnest((SELECT typify_placeholders(geom, id, 50000, 0, typify_options(shape => 'auto', exponent => 0, keep_area => 0.2)) FROM town)) AS p
 WHERE b.id = p.id ORDER BY b.id;
-SELECT b.name, round(ST_Distance(ST_Centroid(p.geom), ST_Centroid(b.geom))::numeric, 2) AS moved, ST_NPoints(p.geom) AS points, round(p.area::numeric, 3) AS area, p.members
+-- at a scale where all of it is a detour it is still there; which corners remain, GEOS 3.13 answers otherwise than before
+SELECT b.name, round(ST_Distance(ST_Centroid(p.geom), ST_Centroid(b.geom))::numeric) AS moved, ST_NumInteriorRings(p.geom) AS holes, round(p.area::numeric, 3) AS area, p.members
 FROM town AS b, unnest((SELECT typify_placeholders(geom, id, 1000000, 0, typify_options(shape => 'auto', keep_area => 100), CASE id WHEN 2 THEN float8 'Infinity' END) FROM town)) AS p
 WHERE b.id = p.id ORDER BY b.id;
 

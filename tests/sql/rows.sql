@@ -71,6 +71,34 @@ SELECT count(*) AS rows, bool_and(placeholders = n) AS as_many_as_asked, max(off
 	max(variation) < 0.001 AS evenly_spaced
 FROM row;
 
+-- kept apart by a gap, a row too dense for it gives up places: what is left stays on its line, evenly, from end to end
+WITH left_over AS (
+	SELECT k, ux, uy, scale, row_number() OVER (PARTITION BY ux, k, scale ORDER BY (p).members[1]) AS place,
+		count(*) OVER (PARTITION BY ux, k, scale) AS n, ST_Centroid((p).geom) AS c, (p).member_count, (p).geom
+	FROM (VALUES (1.0::float8, 0.0::float8), (0.6, 0.8), (-0.8, 0.6), (0.28, -0.96)) AS direction(ux, uy),
+		unnest(ARRAY[6, 7, 13, 30]) AS k, unnest(ARRAY[50000, 75000, 100000]) AS scale,
+		LATERAL (SELECT unnest(typify_placeholders(r.geom, r.id, scale, 0, typify_options(exponent => 0, alignment => 5, min_side => 0.35, min_gap => 0.2))) AS p
+			FROM pg_temp.row_of(k, ux, uy) AS r) AS each
+), gap AS (
+	SELECT *, ST_Distance(c, lead(c) OVER along) AS pitch, ST_Distance(geom, lead(geom) OVER along) AS gap,
+		abs((ST_X(c) - 600000) * uy - (ST_Y(c) - 5200000) * ux) AS off_line
+	FROM left_over WINDOW along AS (PARTITION BY ux, k, scale ORDER BY place)
+), row AS (
+	SELECT k, scale, n, max(off_line) / scale * 1000 AS off_line, min(gap) / scale * 1000 AS gap, sum(pitch) / (20 * (k - 1)) AS stretch,
+		coalesce(stddev_pop(pitch) / nullif(avg(pitch), 0), 0) AS variation, sum(member_count) = k AS all_members, max(member_count) - min(member_count) AS uneven
+	FROM gap GROUP BY ux, k, scale, n
+)
+SELECT scale, k, min(n) AS fewest, max(n) AS most, max(off_line) < 0.05 AS on_the_line, max(variation) < 0.02 AS evenly_spaced, min(gap) > 0.2 * (1 - 1e-6) AS apart,
+	bool_and(stretch BETWEEN 0.98 AND 1.2) AS from_end_to_end, bool_and(all_members) AS all_members, max(uneven) AS uneven
+FROM row GROUP BY scale, k ORDER BY scale, k;
+CREATE TABLE pg_temp.kept_50000 AS SELECT p.* FROM unnest((SELECT typify_placeholders(geom, id, 50000, 0.5, typify_options(alignment => 5, min_side => 0.35, min_gap => 0.2)) FROM settlement_buildings)) AS p;
+CREATE TABLE pg_temp.kept_75000 AS SELECT p.* FROM unnest((SELECT typify_placeholders(geom, id, 75000, 0.5, typify_options(alignment => 5, min_side => 0.35, min_gap => 0.2)) FROM settlement_buildings)) AS p;
+CREATE TABLE pg_temp.kept_100000 AS SELECT p.* FROM unnest((SELECT typify_placeholders(geom, id, 100000, 0.5, typify_options(alignment => 5, min_side => 0.35, min_gap => 0.2)) FROM settlement_buildings)) AS p;
+-- and in the settlement most rows stay rows
+SELECT scale, q.overlapping, q.narrow_gaps, q.rows_kept >= least_kept AS rows_kept
+FROM (VALUES (50000, 0.85), (75000, 0.7), (100000, 0.75)) AS aim (scale, least_kept),
+	LATERAL typify_quality('settlement_buildings', ('pg_temp.kept_' || scale)::regclass, scale) AS q ORDER BY scale;
+
 -- the settlement as one group: placeholders of rows, and those that mix several rows
 SELECT scale, alignment, count(*) FILTER (WHERE rows > 0) AS of_rows, count(*) FILTER (WHERE rows > 1) AS of_several
 FROM unnest(ARRAY[50000, 75000, 100000]) AS scale, unnest(ARRAY[0, 1, 4, 20]) AS alignment,

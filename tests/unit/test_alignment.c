@@ -46,7 +46,7 @@ static ty_rows
 find(void)
 {
 	ty_rows rows;
-	ty_status status = ty_rows_of_group(&ty_plain_environment, buildings, count, order, &rows);
+	ty_status status = ty_rows_of_group(&ty_plain_environment, buildings, count, (ty_parting){0}, order, &rows);
 
 	CHECK(status == TY_OK, "status %d", status);
 	return rows;

@@ -1,9 +1,11 @@
 /*
- * test_legibility.c - the fear: two placeholders overlap or come nearer than the gap, somebody is lost, or one is
- * moved farther or drawn smaller than allowed. Distances are measured anew here, edge by edge.
+ * test_legibility.c - the fear: two placeholders overlap or come nearer than the gap, or one to a barrier, somebody is
+ * lost, one is moved farther or drawn smaller than allowed, or a kept one is touched. Distances are measured anew here,
+ * edge by edge. Groups have rows, kept buildings and barriers by turns.
  *
  * The environment variable SETS says how many random groups are made legible.
  */
+#include "barrier.h"
 #include "check.h"
 #include "group.h"
 #include "legibility.h"
@@ -17,6 +19,20 @@
 #define TOLERANCE 1e-6
 #define GROUPS 100000
 #define MOST 40
+#define LINES 3
+
+/* a group, with what may be said of it */
+typedef struct set
+{
+	size_t n;
+	ty_building b[MOST];
+	double importance[MOST];
+	ty_parameters p;
+	ty_point line[LINES][2];
+	ty_barrier_lines lines; /* with barriers; else none */
+	bool weighed, barred;
+	char name[256];
+} set;
 
 /* ---- distances, the plain way ---- */
 
@@ -78,16 +94,17 @@ ring_of(const ty_placeholder *p, const ty_placeholder *origin, ty_point ring[5])
 
 /* ---- what every result must be ---- */
 
-static const char *
-describe(const ty_parameters *p, size_t n, uint64_t number)
+static void
+describe(set *s, uint64_t number)
 {
-	static char text[256];
+	const ty_parameters *p = &s->p;
 
-	snprintf(text, sizeof text,
-			 "set %llu, %zu buildings at %g, s_u %g, side %g, area %g, gap %g, shape %d, statistic %d",
-			 (unsigned long long) number, n, p->scale, p->s_u, p->min_side, p->max_area, p->min_gap, (int) p->shape,
-			 (int) p->area_statistic);
-	return text;
+	snprintf(s->name, sizeof s->name,
+			 "set %llu, %zu buildings at %g, s_u %g, side %g, area %g, gap %g, alignment %g, keep %g, shape %d, "
+			 "statistic %d%s%s",
+			 (unsigned long long) number, s->n, p->scale, p->s_u, p->min_side, p->max_area, p->min_gap, p->alignment,
+			 p->keep_area, (int) p->shape, (int) p->area_statistic, s->weighed ? ", importances" : "",
+			 s->barred ? ", barriers" : "");
 }
 
 static bool
@@ -106,13 +123,68 @@ check_apart(const ty_result *r, const ty_parameters *p, const char *set)
 			double distance;
 
 			if (!(r->placeholders[i].area > 0) || !(r->placeholders[j].area > 0) ||
-				surely_apart(&r->placeholders[i], &r->placeholders[j], p->min_gap))
+				surely_apart(&r->placeholders[i], &r->placeholders[j], p->min_gap) ||
+				(r->placeholders[i].kept && r->placeholders[j].kept))
 				continue;
 			ring_of(&r->placeholders[i], &r->placeholders[0], a);
 			ring_of(&r->placeholders[j], &r->placeholders[0], b);
 			distance = ring_distance(a, b);
 			CHECK(distance >= p->min_gap * (1 - TOLERANCE), "%s: %zu and %zu are %.17g apart", set, i, j, distance);
 		}
+}
+
+/* Nobody but kept ones is nearer to a line than half its symbol and the gap. */
+static void
+check_lines(const set *s, const ty_result *r)
+{
+	double limit = s->p.min_gap + 0.5 * s->p.barrier_width;
+
+	for (size_t i = 0; s->barred && i < r->count; i++)
+		for (int k = 0; k < LINES; k++)
+		{
+			const ty_placeholder *q = &r->placeholders[i];
+			ty_point ring[5], a = {s->line[k][0].x - q->x, s->line[k][0].y - q->y};
+			ty_point b = {s->line[k][1].x - q->x, s->line[k][1].y - q->y};
+			double distance = INFINITY;
+
+			if (!(q->area > 0) || q->kept)
+				continue;
+			ring_of(q, q, ring);
+			if (inside(ring, a))
+				distance = 0;
+			for (int e = 0; e < 4; e++)
+			{
+				if (edges_cross(ring[e], ring[e + 1], a, b))
+					distance = 0;
+				distance = fmin(distance, point_to_segment(ring[e], a, b));
+				distance = fmin(distance, point_to_segment(a, ring[e], ring[e + 1]));
+				distance = fmin(distance, point_to_segment(b, ring[e], ring[e + 1]));
+			}
+			CHECK(distance >= limit * (1 - TOLERANCE), "%s: %zu is %.17g from line %d", s->name, i, distance, k);
+		}
+}
+
+/* Every kept building is drawn, where it is, and as large as it is or as wide as can be seen. */
+static void
+check_kept(const set *s, const ty_result *r)
+{
+	for (size_t i = 0; i < s->n; i++)
+	{
+		const ty_building *b = &s->b[i];
+		bool drawn = false;
+
+		if (!(b->area > 0) || !ty_is_kept(&s->p, b->area, s->weighed ? s->importance[i] : 1))
+			continue;
+		for (size_t k = 0; k < r->count && !drawn; k++)
+		{
+			const ty_placeholder *q = &r->placeholders[k];
+
+			drawn = q->representative == i && q->kept && q->x == b->x && q->y == b->y &&
+					q->area >= b->area * (1 - TOLERANCE) &&
+					(q->area <= b->area * (1 + TOLERANCE) || q->width <= s->p.min_side * (1 + TOLERANCE));
+		}
+		CHECK(drawn, "%s: kept building %zu is not in place and in size", s->name, i);
+	}
 }
 
 /* the mean of the members' places, and so where an unmoved placeholder would be */
@@ -130,8 +202,12 @@ mean_place(const ty_building *b, const uint32_t *members, size_t count)
 }
 
 static void
-check_sizes(const ty_building *b, const ty_result *r, const ty_parameters *p, const char *set)
+check_sizes(const set *s, const ty_result *r)
 {
+	const ty_building *b = s->b;
+	const ty_parameters *p = &s->p;
+	const char *set = s->name;
+
 	for (size_t i = 0; i < r->count; i++)
 	{
 		const ty_placeholder *q = &r->placeholders[i];
@@ -142,6 +218,10 @@ check_sizes(const ty_building *b, const ty_result *r, const ty_parameters *p, co
 
 		if (!(q->area > 0))
 			continue;
+		if (s->weighed || s->barred || p->alignment > 0 || p->keep_area > 0)
+			moved = 0;
+		if (q->kept)
+			limit = INFINITY;
 		CHECK(q->width >= p->min_side * (1 - TOLERANCE), "%s: %zu is %.17g wide", set, i, q->width);
 		CHECK(q->width <= q->length * (1 + TOLERANCE), "%s: %zu is %.17g by %.17g", set, i, q->width, q->length);
 		CHECK(q->area <= limit * (1 + TOLERANCE), "%s: %zu is as large as %.17g", set, i, q->area);
@@ -196,34 +276,67 @@ random_place(random_state *r, int kind, size_t i, double span, ty_building *b)
 			b->x = span / 6 * (double) (i % 6);
 			b->y = span / 6 * (double) (i / 6);
 			break;
+		case 5: /* three rows of equal houses, not far from each other */
+			b->x = span / MOST * 3 * (double) (i / 3);
+			b->y = span / MOST * 5 * (double) (i % 3) + span / MOST * 0.1 * random_unit(r);
+			break;
 		default: /* dense in the middle */
 			b->x = span * random_unit(r) * random_unit(r) * random_unit(r);
 			b->y = span * random_unit(r) * random_unit(r) * random_unit(r);
 	}
 }
 
-static size_t
-random_group(random_state *r, ty_building *b, ty_parameters *p)
+static void
+random_buildings(random_state *r, set *s, double span, double origin)
+{
+	int kind = (int) random_between(r, 0, 5);
+
+	for (size_t i = 0; i < s->n; i++)
+	{
+		double angle = 3.14159 * random_unit(r);
+		ty_building *b = &s->b[i];
+
+		random_place(r, kind, i, span, b);
+		b->x += origin;
+		b->y += origin;
+		b->area = random_between(r, 0, 9) == 0 ? 0 : pow(10, 1 + 3 * random_unit(r));
+		b->ratio = b->area > 0 ? 0.02 + 0.98 * random_unit(r) : 1;
+		b->ux = kind == 5 || random_between(r, 0, 2) == 0 ? 1 : cos(angle);
+		b->uy = b->ux == 1 ? 0 : sin(angle);
+		b->id = (int64_t) i;
+		if (kind == 5)
+		{
+			b->area = 120;
+			b->ratio = 0.7;
+		}
+		s->importance[i] = random_between(r, 0, 5) == 0 ? INFINITY : 1 + (double) random_between(r, 0, 2);
+	}
+}
+
+static void
+random_lines(random_state *r, set *s, double span, double origin)
+{
+	ty_barrier_lines_begin(&s->lines, &ty_plain_environment);
+	for (int k = 0; k < LINES; k++)
+	{
+		for (int end = 0; end < 2; end++)
+			s->line[k][end] =
+				(ty_point){origin + span * (1.4 * random_unit(r) - 0.2), origin + span * (1.4 * random_unit(r) - 0.2)};
+		NEED(ty_barrier_lines_add(&s->lines, s->line[k], sizeof(ty_point), 2) == TY_OK, "line %d", k);
+	}
+	NEED(ty_barrier_lines_end(&s->lines) == TY_OK, "lines");
+}
+
+static void
+random_group(random_state *r, uint64_t number, set *s)
 {
 	static const double spans[] = {1, 50, 300, 1000, 3000};
 	static const double origins[] = {0, -4000, 2.7e6, 1e9};
-	size_t n = (size_t) random_between(r, 1, MOST);
-	int kind = (int) random_between(r, 0, 4);
 	double span = spans[random_between(r, 0, 4)], origin = origins[random_between(r, 0, 3)];
+	ty_parameters *p = &s->p;
 
-	for (size_t i = 0; i < n; i++)
-	{
-		double angle = 3.14159 * random_unit(r);
-
-		random_place(r, kind, i, span, &b[i]);
-		b[i].x += origin;
-		b[i].y += origin;
-		b[i].area = random_between(r, 0, 9) == 0 ? 0 : pow(10, 1 + 3 * random_unit(r));
-		b[i].ratio = b[i].area > 0 ? 0.02 + 0.98 * random_unit(r) : 1;
-		b[i].ux = random_between(r, 0, 2) == 0 ? 1 : cos(angle);
-		b[i].uy = b[i].ux == 1 ? 0 : sin(angle);
-		b[i].id = (int64_t) i;
-	}
+	*s = (set){.n = (size_t) random_between(r, 1, MOST)};
+	random_buildings(r, s, span, origin);
 	*p = (ty_parameters){.scale = 25000 * (1 + floor(20 * random_unit(r) * random_unit(r))),
 						 .s_u = 0.5 * (double) random_between(r, 0, 2),
 						 .source_scale = TY_DEFAULT_SOURCE_SCALE,
@@ -236,36 +349,67 @@ random_group(random_state *r, ty_building *b, ty_parameters *p)
 	p->min_side = 0.35 * (double) random_between(r, 0, 2);
 	p->max_area = p->min_side * p->min_side * (double) random_between(r, 0, 2);
 	p->min_gap = 0.05 * (double) random_between(r, 1, 8);
+	p->alignment = 5 * (double) random_between(r, 0, 1);
+	p->keep_area = random_between(r, 0, 5) == 0 ? 0.5 : 0;
+	p->barrier_width = 0.25 * (double) random_between(r, 0, 2);
+	s->weighed = random_between(r, 0, 3) == 0;
+	s->barred = random_between(r, 0, 2) == 0;
+	if (s->barred)
+		random_lines(r, s, span, origin);
 	ty_bring_to_ground(p, 1);
-	return n;
+	describe(s, number);
+}
+
+static ty_input
+input_of(const set *s)
+{
+	return (ty_input){.buildings = s->b,
+					  .n = s->n,
+					  .importance = s->weighed ? s->importance : NULL,
+					  .barriers = s->barred ? &s->lines : NULL};
+}
+
+static void
+free_group(set *s)
+{
+	if (s->barred)
+		ty_barrier_lines_free(&s->lines);
 }
 
 static void
 random_small_groups_have_no_violation(void)
 {
 	random_state r = random_seed(4);
-	ty_building b[MOST];
-	ty_parameters p;
+	set s;
 	size_t groups = getenv("SETS") != NULL ? (size_t) atol(getenv("SETS")) : GROUPS;
-	size_t asked = 0, left = 0;
+	size_t asked = 0, left = 0, collisions = 0, beside = 0;
 
 	for (uint64_t k = 0; k < groups && check_failures < CHECK_SHOWN; k++)
 	{
-		size_t n = random_group(&r, b, &p);
-		const char *set = describe(&p, n, k);
-		ty_input input = {.buildings = b, .n = n};
+		ty_input input;
 		ty_result result;
-		ty_status status = ty_typify(&ty_plain_environment, &input, &p, &result);
+		ty_status status;
 
-		NEED(status == TY_OK, "%s: status %d", set, (int) status);
-		asked += ty_count(n, &p, 1);
+		random_group(&r, k, &s);
+		input = input_of(&s);
+		status = ty_typify(&ty_plain_environment, &input, &s.p, &result);
+		NEED(status == TY_OK, "%s: status %d", s.name, (int) status);
+		asked += ty_count(s.n, &s.p, 1);
 		left += result.count;
-		check_apart(&result, &p, set);
-		check_sizes(b, &result, &p, set);
-		check_nobody_lost(&result, n, set);
+		collisions += result.collisions.pairs;
+		beside += result.collisions.beside_lines;
+		check_apart(&result, &s.p, s.name);
+		check_lines(&s, &result);
+		check_sizes(&s, &result);
+		check_kept(&s, &result);
+		check_nobody_lost(&result, s.n, s.name);
 		ty_result_free(&ty_plain_environment, &result);
+		free_group(&s);
 	}
-	printf("  information: %zu groups, the law leaves %zu placeholders, %zu are legible\n", groups, asked, left);
+	printf(
+		"  information: %zu groups, the law leaves %zu placeholders, %zu are legible; of kept ones %zu pairs collide, "
+		"%zu are beside a line\n",
+		groups, asked, left, collisions, beside);
 }
 
 static int
@@ -275,35 +419,43 @@ compare_places(const void *a, const void *b)
 }
 
 static void
+shuffle(random_state *r, set *s)
+{
+	for (size_t i = s->n; i > 1; i--)
+	{
+		size_t j = (size_t) random_between(r, 0, (int64_t) i - 1);
+		ty_building swap = s->b[i - 1];
+		double importance = s->importance[i - 1];
+
+		s->b[i - 1] = s->b[j];
+		s->b[j] = swap;
+		s->importance[i - 1] = s->importance[j];
+		s->importance[j] = importance;
+	}
+}
+
+static void
 the_order_of_buildings_does_not_matter(void)
 {
 	random_state r = random_seed(5);
-	ty_building b[MOST], shuffled[MOST];
-	ty_parameters p;
+	set s;
 
 	for (uint64_t k = 0; k < 2000 && check_failures < CHECK_SHOWN; k++)
 	{
-		size_t n = random_group(&r, b, &p);
 		ty_result one, other;
-		ty_input input = {.buildings = b, .n = n}, again = {.buildings = shuffled, .n = n};
+		ty_input input;
 
-		memcpy(shuffled, b, sizeof b);
-		for (size_t i = n; i > 1; i--)
-		{
-			size_t j = (size_t) random_between(&r, 0, (int64_t) i - 1);
-			ty_building swap = shuffled[i - 1];
-
-			shuffled[i - 1] = shuffled[j];
-			shuffled[j] = swap;
-		}
-		NEED(ty_typify(&ty_plain_environment, &input, &p, &one) == TY_OK &&
-				 ty_typify(&ty_plain_environment, &again, &p, &other) == TY_OK,
-			 "%s", describe(&p, n, k));
-		CHECK(one.count == other.count, "%s: %zu and %zu", describe(&p, n, k), one.count, other.count);
+		random_group(&r, k, &s);
+		input = input_of(&s);
+		NEED(ty_typify(&ty_plain_environment, &input, &s.p, &one) == TY_OK, "%s", s.name);
+		shuffle(&r, &s);
+		NEED(ty_typify(&ty_plain_environment, &input, &s.p, &other) == TY_OK, "%s shuffled", s.name);
+		CHECK(one.count == other.count, "%s: %zu and %zu", s.name, one.count, other.count);
 		for (size_t i = 0; i < one.count && i < other.count; i++)
-			CHECK(compare_places(&one.placeholders[i], &other.placeholders[i]) == 0, "%s: %zu", describe(&p, n, k), i);
+			CHECK(compare_places(&one.placeholders[i], &other.placeholders[i]) == 0, "%s: %zu", s.name, i);
 		ty_result_free(&ty_plain_environment, &one);
 		ty_result_free(&ty_plain_environment, &other);
+		free_group(&s);
 	}
 }
 
@@ -440,6 +592,7 @@ square_site(double x, double side, uint32_t group, uint32_t weight)
 					 .least = {10, 10},
 					 .weight = weight,
 					 .group = group,
+					 .row = TY_NO_ROW,
 					 .size = 2};
 }
 

@@ -485,6 +485,56 @@ minimum_rectangle_does_not_depend_on_the_order_of_points(void)
 	}
 }
 
+/* Rings of four corners, which are looked at as they are, and the corners alone, whose hull is sought. */
+static void
+a_ring_of_four_corners_is_what_its_corners_are(void)
+{
+	random_state random = random_seed(14);
+
+	for (size_t set = 0; set < 20000; set++)
+	{
+		ty_point ring[5], corners[5], hull[6];
+		double first[3], again[3];
+
+		for (size_t i = 0; i < 4; i++)
+			ring[i] = (ty_point){(double) random_between(&random, 0, 9), (double) random_between(&random, 0, 9)};
+		ring[4] = ring[0];
+		memcpy(corners, ring, sizeof ring);
+		corners[1] = ring[2]; /* across: no ring of four convex corners any more */
+		corners[2] = ring[1];
+		ty_minimum_rectangle(ring, 5, hull, &first[0], &first[1], &first[2]);
+		ty_minimum_rectangle(corners, 4, hull, &again[0], &again[1], &again[2]);
+		CHECK(memcmp(first, again, sizeof first) == 0, "set %zu: ratio %a, direction %a %a; then %a, %a %a", set,
+			  first[0], first[1], first[2], again[0], again[1], again[2]);
+	}
+}
+
+/* Areas beyond the range of doubles too: what overflows is looked at in another way. */
+static void
+minimum_rectangle_does_not_depend_on_size(void)
+{
+	random_state random = random_seed(15);
+
+	for (int power = -300; power <= 300; power += 20)
+	{
+		ty_point points[5] = {{0, 0}, {8, 6}, {5, 10}, {-3, 4}, {0, 0}}, corners[40], hull[41];
+		double ratio, ux, uy, factor = ldexp(1, power);
+
+		for (size_t i = 0; i < 5; i++)
+			points[i] = (ty_point){factor * points[i].x, factor * points[i].y};
+		ty_minimum_rectangle(points, 5, hull, &ratio, &ux, &uy);
+		CHECK(fabs(ratio - 0.5) + fabs(ux - 0.8) + fabs(uy - 0.6) < 1e-15, "2^%d: ratio %a, direction %a %a", power,
+			  ratio, ux, uy);
+		for (size_t i = 0; i < 40; i++) /* in a rectangle, its corners among them */
+			corners[i] = i < 4 ? (ty_point){factor * (double) (i % 2) * 9, factor * (double) (i / 2) * 5}
+							   : (ty_point){factor * (double) random_between(&random, 0, 9),
+											factor * (double) random_between(&random, 0, 5)};
+		ty_minimum_rectangle(corners, 40, hull, &ratio, &ux, &uy);
+		CHECK(fabs(ratio - 5.0 / 9) < 1e-15 && ux == 1 && uy == 0, "2^%d: ratio %a, direction %a %a", power, ratio, ux,
+			  uy);
+	}
+}
+
 int
 main(int argc, char **argv)
 {
@@ -509,5 +559,7 @@ main(int argc, char **argv)
 	RUN(start_and_direction_of_the_ring_do_not_matter);
 	RUN(minimum_rectangle_equals_brute_force);
 	RUN(minimum_rectangle_does_not_depend_on_the_order_of_points);
+	RUN(a_ring_of_four_corners_is_what_its_corners_are);
+	RUN(minimum_rectangle_does_not_depend_on_size);
 	return check_end();
 }
