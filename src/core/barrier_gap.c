@@ -280,20 +280,42 @@ may_be_near(const void *context, const ty_box *box)
 }
 
 static ty_status
-list_segment(const ty_environment *env, ty_segments *near, uint32_t number)
+make_room(const ty_environment *env, ty_segments *near)
 {
-	if (near->count == near->capacity)
-	{
-		size_t capacity = near->capacity == 0 ? FIRST_NEAR : 2 * near->capacity;
-		uint32_t *numbers = near->number == NULL ? ty_allocate_array(env, capacity, sizeof *numbers)
-												 : ty_reallocate_array(env, near->number, capacity, sizeof *numbers);
+	size_t capacity = near->capacity == 0 ? FIRST_NEAR : 2 * near->capacity;
+	uint32_t *numbers = near->capacity == 0 ? ty_allocate_array(env, capacity, sizeof *numbers)
+											: ty_reallocate_array(env, near->number, capacity, sizeof *numbers);
+	float *distances;
 
-		if (numbers == NULL)
-			return TY_NO_MEMORY;
-		near->number = numbers;
-		near->capacity = capacity;
+	if (numbers == NULL)
+		return TY_NO_MEMORY;
+	near->number = numbers;
+	distances = near->capacity == 0 ? ty_allocate_array(env, capacity, sizeof *distances)
+									: ty_reallocate_array(env, near->distance, capacity, sizeof *distances);
+	if (distances == NULL)
+		return TY_NO_MEMORY;
+	near->distance = distances;
+	near->capacity = capacity;
+	return TY_OK;
+}
+
+/* Lists the segment behind those that are no farther. */
+static ty_status
+list_segment(const ty_environment *env, ty_segments *near, uint32_t number, double distance)
+{
+	float rounded = (float) (distance * (1 - 1e-6));
+	ty_status status = near->count == near->capacity ? make_room(env, near) : TY_OK;
+	size_t k = near->count;
+
+	if (status != TY_OK)
+		return status;
+	for (near->count++; k > 0 && near->distance[k - 1] > rounded; k--)
+	{
+		near->number[k] = near->number[k - 1];
+		near->distance[k] = near->distance[k - 1];
 	}
-	near->number[near->count++] = number;
+	near->number[k] = number;
+	near->distance[k] = rounded;
 	return TY_OK;
 }
 
@@ -308,9 +330,11 @@ list_of_run(void *context, size_t thing)
 	{
 		ty_point next = ty_run_point(run, i);
 
-		if (length(nearest_on_line(last, next, search->place), search->place) < search->limit)
-			search->status =
-				list_segment(search->lines->env, search->near, (uint32_t) thing * (TY_RUN_POINTS - 1) + i - 1);
+		double distance = length(nearest_on_line(last, next, search->place), search->place);
+
+		if (distance < search->limit)
+			search->status = list_segment(search->lines->env, search->near,
+										  (uint32_t) thing * (TY_RUN_POINTS - 1) + i - 1, distance);
 		last = next;
 	}
 	return search->status == TY_OK;

@@ -22,8 +22,8 @@
 #define ROUNDING_STEPS 16 /* units in the last place of coordinates and sides: what drawing may round away */
 #define ROUNDS 8		  /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
 #define NEAR_EACH 32	  /* sites that are kept in mind; one in a town has 20 near it, of which 2 are in its way */
-#define LINES_EACH 40	  /* segments that are kept in mind; in a town with all its ways there are 20 in reach */
-#define SPARSE 64		  /* of so many sites one in a conflict is few */
+#define LINES_EACH 80 /* two for a segment that is kept in mind; in a town with all its ways there are 20 in reach */
+#define SPARSE 64	  /* of so many sites one in a conflict is few */
 
 /* ---- sites ---- */
 
@@ -102,13 +102,14 @@ ty_status
 ty_enter_site(ty_ladder *l, uint32_t i)
 {
 	const ty_site *s = &l->sites[i];
+	double reach;
 	ty_status status;
 
 	ty_place_box(l, i);
 	l->by_line[i] = false;
-	status = ty_meet_lines(l, i, reach_of(l, i));
-	if (status == TY_OK && l->by_line[i])
-		status = ty_meet_lines(l, i, reach_of(l, i));
+	reach = reach_of(l, i);
+	l->by_line[i] = true; /* which has a longer way, off the line */
+	status = ty_meet_lines(l, i, reach, reach_of(l, i));
 	ty_vicinity_insert(&l->near, i, (ty_point){s->home.x - l->origin.x, s->home.y - l->origin.y}, reach_of(l, i));
 	return status;
 }
@@ -631,6 +632,7 @@ free_ladder(ty_ladder *l)
 	ty_lists_free(&l->near_of);
 	ty_lists_free(&l->lines_of);
 	ty_release(l->env, l->segments.number);
+	ty_release(l->env, l->segments.distance);
 	ty_release(l->env, l->next);
 	ty_release(l->env, l->listed);
 	ty_release(l->env, l->degree);

@@ -46,7 +46,8 @@ typedef struct ty_ladder
 	ty_segments segments; /* those last found */
 	const uint32_t *list; /* [list_count] what ty_find_near found; some may be gone by now */
 	size_t list_count;
-	const uint32_t *line_list; /* [line_count] segments in reach of the same site, where it is by_line */
+	const uint32_t *line_list;	/* [line_count] segments in reach of the same site, where it is by_line */
+	const float *line_distance; /* ... from the nearest to its home on */
 	size_t line_count;
 	uint32_t *active; /* [active_count] sites that may be in a conflict: at least one of the two of each */
 	uint32_t *next;	  /* those of the next round */
@@ -111,8 +112,11 @@ double ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away);
 bool ty_is_line_conflict(const ty_ladder *l, double lack);
 /* Whether a fixed site, which does not yield, is too near to a line. */
 bool ty_fixed_by_line(const ty_ladder *l, uint32_t i);
-/* Finds out which lines are in reach of the site, which reaches so far; lists them again in l->line_list. */
-ty_status ty_meet_lines(ty_ladder *l, uint32_t i, double reach);
+/*
+ * Finds out whether a line is in reach of the site, which reaches so far, and if so which are, as it then reaches farther;
+ * lists them again in l->line_list.
+ */
+ty_status ty_meet_lines(ty_ladder *l, uint32_t i, double reach, double reach_by_line);
 ty_status ty_recall_lines(ty_ladder *l, uint32_t i);
 /* Whether the site has come to lie on the other side of a line. */
 bool ty_is_across(const ty_ladder *l, uint32_t i);

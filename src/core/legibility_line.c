@@ -18,22 +18,23 @@ find_lines(ty_ladder *l, uint32_t i, double reach)
 
 	if (status != TY_OK)
 		return status;
-	list = ty_lists_keep(&l->lines_of, i, l->segments.number, l->segments.count);
-	l->line_list = list == NULL ? l->segments.number : list + 1;
+	list = ty_lists_keep_with(&l->lines_of, i, l->segments.number, l->segments.distance, l->segments.count);
 	l->line_count = l->segments.count;
+	l->line_list = list == NULL ? l->segments.number : list + 1;
+	l->line_distance = list == NULL ? l->segments.distance : (const float *) (list + 1 + l->line_count);
 	return TY_OK;
 }
 
 ty_status
-ty_meet_lines(ty_ladder *l, uint32_t i, double reach)
+ty_meet_lines(ty_ladder *l, uint32_t i, double reach, double reach_by_line)
 {
 	ty_status status = TY_OK;
 
 	l->by_line[i] = false;
 	if (l->rules->lines == NULL || l->sites[i].fixed)
 		return TY_OK;
-	status = find_lines(l, i, reach);
-	l->by_line[i] = status == TY_OK && l->line_count > 0;
+	status = find_lines(l, i, reach_by_line);
+	l->by_line[i] = status == TY_OK && l->line_count > 0 && l->line_distance[0] < reach + l->line_target;
 	return status;
 }
 
@@ -44,9 +45,28 @@ ty_recall_lines(ty_ladder *l, uint32_t i)
 
 	if (list == NULL)
 		return find_lines(l, i, l->near.discs[i].radius);
+	l->line_count = list[0] / 2;
 	l->line_list = list + 1;
-	l->line_count = list[0];
+	l->line_distance = (const float *) (list + 1 + l->line_count);
 	return TY_OK;
+}
+
+/* How many of the segments in reach of the site may come nearer to its home than so far. */
+static size_t
+lines_within(const ty_ladder *l, double distance)
+{
+	double limit = distance * (1 + 1e-6) + 1e-6 * l->line_target;
+	size_t count = 0;
+
+	while (count < l->line_count && l->line_distance[count] <= limit)
+		count++;
+	return count;
+}
+
+static double
+length_of(double dx, double dy)
+{
+	return sqrt(dx * dx + dy * dy);
 }
 
 bool
@@ -57,7 +77,9 @@ ty_is_across(const ty_ladder *l, uint32_t i)
 
 	if (!l->by_line[i] || (s->moved.x == 0 && s->moved.y == 0 && s->shift.x == 0 && s->shift.y == 0))
 		return false;
-	return ty_barrier_segments_cross(l->rules->lines, l->line_list, l->line_count, s->home, centre);
+	return ty_barrier_segments_cross(l->rules->lines, l->line_list,
+									 lines_within(l, length_of(centre.x - s->home.x, centre.y - s->home.y)), s->home,
+									 centre);
 }
 
 /* ---- how near a line comes ---- */
@@ -127,13 +149,15 @@ surely_beyond(ty_point place, double reach, ty_point a, ty_point b)
 
 /* How near a line comes to the box, or limit; *away: in which direction it would have to go. radius: half its diagonal. */
 static double
-line_distance(const ty_ladder *l, const ty_oblong *box, double radius, double limit, ty_point *away)
+line_distance(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radius, double limit, ty_point *away)
 {
+	const ty_point home = l->sites[i].home;
 	ty_point centre = {l->origin.x + box->x, l->origin.y + box->y};
 	clearance c = {limit * limit, {0, 0}};
 	double distance, reach = (radius + limit) * (1 + 1e-6);
+	size_t count = lines_within(l, reach + length_of(centre.x - home.x, centre.y - home.y));
 
-	for (size_t k = 0; k < l->line_count && c.squared > 0; k++)
+	for (size_t k = 0; k < count && c.squared > 0; k++)
 	{
 		ty_point a, b;
 
@@ -160,7 +184,7 @@ lack_of_crossed(const ty_ladder *l, uint32_t i, ty_point *away)
 
 	*away = (ty_point){-box->uy, box->ux};
 	return ty_extent(box, *away) + l->line_target -
-		   line_distance(l, &centre, 0, l->body[i].radius + l->line_target, away);
+		   line_distance(l, i, &centre, 0, l->body[i].radius + l->line_target, away);
 }
 
 double
@@ -170,7 +194,7 @@ ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away)
 
 	if (!l->by_line[i])
 		return 0;
-	distance = line_distance(l, &l->body[i].box, l->body[i].radius, l->line_target, away);
+	distance = line_distance(l, i, &l->body[i].box, l->body[i].radius, l->line_target, away);
 	if (distance > 0)
 		return l->line_target - distance;
 	return fmax(lack_of_crossed(l, i, away), l->line_target);

@@ -26,8 +26,9 @@ ty_lists_free(ty_lists *lists)
 	*lists = (ty_lists){0};
 }
 
-const uint32_t *
-ty_lists_keep(ty_lists *lists, uint32_t owner, const uint32_t *numbers, size_t count)
+/* Room for a list of so many numbers. */
+static uint32_t *
+take(ty_lists *lists, uint32_t owner, size_t count)
 {
 	uint32_t *list;
 
@@ -42,8 +43,28 @@ ty_lists_keep(ty_lists *lists, uint32_t owner, const uint32_t *numbers, size_t c
 	lists->at[owner] = (uint32_t) lists->used;
 	lists->used += count + 1;
 	list[0] = (uint32_t) count;
-	if (count > 0)
+	return list;
+}
+
+const uint32_t *
+ty_lists_keep(ty_lists *lists, uint32_t owner, const uint32_t *numbers, size_t count)
+{
+	uint32_t *list = take(lists, owner, count);
+
+	if (list != NULL && count > 0)
 		memcpy(list + 1, numbers, count * sizeof *list);
+	return list;
+}
+
+const uint32_t *
+ty_lists_keep_with(ty_lists *lists, uint32_t owner, const uint32_t *numbers, const float *values, size_t count)
+{
+	uint32_t *list = take(lists, owner, 2 * count);
+
+	if (list == NULL || count == 0)
+		return list;
+	memcpy(list + 1, numbers, count * sizeof *numbers);
+	memcpy(list + 1 + count, values, count * sizeof *values);
 	return list;
 }
 

@@ -23,6 +23,9 @@ void ty_lists_free(ty_lists *lists);
 
 /* Keeps a list; NULL: it is longer than all the room there is. The result is as ty_lists_get's. */
 const uint32_t *ty_lists_keep(ty_lists *lists, uint32_t owner, const uint32_t *numbers, size_t count);
+/* Keeps a list and behind it what belongs to each of its numbers: it has twice as many. */
+const uint32_t *ty_lists_keep_with(ty_lists *lists, uint32_t owner, const uint32_t *numbers, const float *values,
+								   size_t count);
 void ty_lists_forget(ty_lists *lists, uint32_t owner);
 
 #define TY_NO_LIST UINT32_MAX

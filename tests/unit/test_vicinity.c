@@ -196,11 +196,14 @@ segments_near_a_place_are_listed(void)
 		crosses = ty_barrier_lines_cross(&lines, p, q);
 		CHECK(ty_barrier_segments_cross(&lines, near.number, near.count, p, q) == crosses, "(%g %g) to (%g %g)", p.x,
 			  p.y, q.x, q.y);
+		for (size_t k = 1; k < near.count; k++)
+			CHECK(near.distance[k - 1] <= near.distance[k], "(%g %g): %zu is nearer", p.x, p.y, k);
 		listed += near.count;
 		crossed += crosses;
 	}
 	CHECK(listed > 5000 && crossed > 500, "%zu listed, %zu crossed", listed, crossed);
 	ty_release(&ty_plain_environment, near.number);
+	ty_release(&ty_plain_environment, near.distance);
 	ty_barrier_lines_free(&lines);
 }
 
