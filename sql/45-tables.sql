@@ -100,13 +100,16 @@ SET search_path FROM CURRENT
 AS $$
 DECLARE
 	type oid := (SELECT atttypid FROM pg_attribute WHERE attrelid = relation AND attname = column_name);
+	beyond numeric := CASE type WHEN 'int2'::regtype THEN 32768 WHEN 'int4'::regtype THEN 2147483648
+		ELSE 9223372036854775808 END;
 	condition text := format('%s.%I = ANY (%%L::%%s)', alias, column_name);
 BEGIN
 	IF groups IS NULL OR array_position(groups, NULL) IS NOT NULL THEN
 		RETURN 'true';
 	ELSIF type IN ('int2'::regtype, 'int4'::regtype, 'int8'::regtype) THEN
-		RETURN format(condition, ARRAY(SELECT grp FROM unnest(groups) AS grp WHERE grp ~ '^(0|-?[1-9][0-9]{0,17})$'),
-			'bigint[]');
+		-- of the column's very type: then the server hashes them, instead of comparing each row with each
+		RETURN format(condition, ARRAY(SELECT grp FROM unnest(groups) AS grp WHERE CASE WHEN grp ~ '^(0|-?[1-9][0-9]{0,18})$'
+				THEN grp::numeric >= - beyond AND grp::numeric < beyond END), type::regtype || '[]');
 	ELSIF type IN ('text'::regtype, 'varchar'::regtype) THEN
 		RETURN format(condition, groups, 'text[]');
 	END IF;

@@ -161,8 +161,10 @@ row_shift(int class, int lifetime)
 Point
 ty_node_place(double x, double y, double reach, double scale_from, double scale_to, double source_scale)
 {
-	return (Point){x + BAND_SHIFT * ty_band(scale_to, source_scale),
-				   y + row_shift(class_of(reach), ty_lifetime(scale_from, scale_to, source_scale))};
+	int lifetime = ty_lifetime(scale_from, scale_to, source_scale);
+	int band = ty_band_together(lifetime, ty_band(scale_to, source_scale));
+
+	return (Point){x + BAND_SHIFT * band, y + row_shift(class_of(reach), lifetime)};
 }
 
 PG_FUNCTION_INFO_V1(typify_reach);
@@ -260,7 +262,8 @@ list_bands(const search *s, int class, int lifetime, double wider, Datum *boxes)
 	int last = Min(ty_last_band(lifetime, ty_band(s->high, s->source_scale)), greatest);
 	int count = 0;
 
-	for (int band = first; band <= last && band < TY_ROOT_BAND; band++)
+	for (int band = ty_band_together(lifetime, first); band <= last && band < TY_ROOT_BAND;
+		 band += ty_bands_together(lifetime))
 		boxes[count++] = box_datum(shifted_box(s, band, class, lifetime, wider));
 	if (lifetime == TY_LIFETIMES - 1)
 		boxes[count++] = box_datum(shifted_box(s, TY_ROOT_BAND, class, lifetime, wider));

@@ -305,10 +305,10 @@ find_storage_order(replay *r)
 		{
 			uint32_t parent = h->parent[h->n + step];
 			double scale_to = parent == TY_NONE ? INFINITY : h->scale[parent - h->n];
-			uint64_t lifetime = (uint64_t) ty_lifetime(h->scale[step], scale_to, h->source_scale);
-			uint64_t band = (uint64_t) ty_band(scale_to, h->source_scale);
+			int lifetime = ty_lifetime(h->scale[step], scale_to, h->source_scale);
+			int band = ty_band_together(lifetime, ty_band(scale_to, h->source_scale));
 
-			keys[step] = lifetime << 40 | band << 32 | h->first[h->n + step];
+			keys[step] = (uint64_t) lifetime << 40 | (uint64_t) band << 32 | h->first[h->n + step];
 			h->stored[step] = (uint32_t) step;
 		}
 		status = ty_sort_keys(r->env, keys, h->stored, h->merges);
@@ -424,15 +424,33 @@ ty_band(double scale, double source_scale)
 	return exponent < 1 ? 0 : exponent < TY_ROOT_BAND ? exponent - 1 : TY_ROOT_BAND - 1;
 }
 
-/* by how many bands a life span of each class ends at most after the one that it begins in */
-static const int longest[TY_LIFETIMES] = {1, 2, 3, 7, TY_ROOT_BAND};
+/*
+ * By how many bands the life spans of a class end at most after the one that they begin in, and how many bands are taken
+ * together. Of a million real buildings the first two classes have four fifths of all nodes, the last two 2 %.
+ */
+static const struct
+{
+	int longest, together;
+} lifetimes[TY_LIFETIMES] = {{1, 1}, {2, 1}, {3, 1}, {7, 4}, {TY_ROOT_BAND, 8}};
 
 int
 ty_last_band(int lifetime, int band)
 {
-	int last = band + longest[lifetime];
+	int last = band + lifetimes[lifetime].longest;
 
 	return last < TY_ROOT_BAND ? last : TY_ROOT_BAND;
+}
+
+int
+ty_bands_together(int lifetime)
+{
+	return lifetimes[lifetime].together;
+}
+
+int
+ty_band_together(int lifetime, int band)
+{
+	return band == TY_ROOT_BAND ? band : band - band % lifetimes[lifetime].together;
 }
 
 /* Roots are in the last class, wherever they begin. */
@@ -443,7 +461,7 @@ ty_lifetime(double scale_from, double scale_to, double source_scale)
 
 	if (last == TY_ROOT_BAND)
 		return TY_LIFETIMES - 1;
-	while (last - first > longest[lifetime])
+	while (last - first > lifetimes[lifetime].longest)
 		lifetime++;
 	return lifetime;
 }

@@ -87,6 +87,9 @@ int ty_band(double scale, double source_scale);
 #define TY_LIFETIMES 5
 /* the last band that a life span of a class may end in, when it begins in this one or before */
 int ty_last_band(int lifetime, int band);
+/* Few live long, and bands of theirs are taken together: how many, and the first of those that a band is taken with. */
+int ty_bands_together(int lifetime);
+int ty_band_together(int lifetime, int band);
 int ty_lifetime(double scale_from, double scale_to, double source_scale);
 
 #endif

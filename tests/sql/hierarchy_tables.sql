@@ -55,6 +55,13 @@ SET enable_seqscan = off;
 SELECT count(*) > 0 AS found_by_index FROM weighted WHERE representative = 12;
 RESET enable_seqscan;
 
+-- groups at the ends of their type are found by name, and what is no number of the type is none
+CREATE TABLE ends AS SELECT id, geom, (ARRAY[-32768, 32767, 5]::smallint[])[1 + id % 3] AS small, (ARRAY[-2147483648, 2147483647, 5]::integer[])[1 + id % 3] AS whole,
+	(ARRAY[-9223372036854775808, 9223372036854775807, 5]::bigint[])[1 + id % 3] AS big FROM settlement_buildings;
+SELECT typed, (SELECT string_agg(DISTINCT grp COLLATE "C", ' ' ORDER BY grp COLLATE "C") FROM typify_derive('ends', NULL, 1000000, 0, typed::name, groups => '{-32768,-2147483648,-9223372036854775808,32767,2147483647,9223372036854775807,9223372036854775808,-0,05,five}')) AS found
+FROM unnest(ARRAY['small', 'whole', 'big']) AS typed;
+DROP TABLE ends;
+
 -- what rows would be written past is refused
 CREATE FUNCTION nothing() RETURNS trigger LANGUAGE plpgsql AS 'BEGIN RETURN NEW; END';
 CREATE TABLE part AS SELECT * FROM worth LIMIT 40;

@@ -206,6 +206,35 @@ every_node_is_stored_once(void)
 	ty_hierarchy_free(&ty_plain_environment, &h);
 }
 
+/* The bands in which a look-up searches a class hold whatever of it is alive. */
+static void
+what_is_alive_is_searched_for(void)
+{
+	random_state random = random_seed(17);
+	size_t of_class[TY_LIFETIMES] = {0};
+
+	for (int i = 0; i < 200000; i++)
+	{
+		double from = 25000 * exp2(12 * random_unit(&random) * random_unit(&random));
+		double to = i % 50 == 0 ? INFINITY : from * exp2(7 * random_unit(&random) * random_unit(&random));
+		double scale = i % 7 == 0 ? from : from + (fmin(to, 1e12) - from) * random_unit(&random) * 0.999999;
+		int lifetime = ty_lifetime(from, to, 25000), asked = ty_band(scale, 25000);
+		int band = ty_band_together(lifetime, ty_band(to, 25000));
+
+		if (!(from <= scale && scale < to))
+			continue;
+		of_class[lifetime]++;
+		CHECK(lifetime == TY_LIFETIMES - 1 || to < INFINITY, "a root is of lifetime %d", lifetime);
+		CHECK(to == INFINITY ? band == TY_ROOT_BAND
+							 : band >= ty_band_together(lifetime, asked) && band <= ty_last_band(lifetime, asked) &&
+								   band % ty_bands_together(lifetime) == 0,
+			  "%g to %g, lifetime %d, is in band %d, but at %g bands %d to %d are asked", from, to, lifetime, band,
+			  scale, ty_band_together(lifetime, asked), ty_last_band(lifetime, asked));
+	}
+	for (int lifetime = 0; lifetime < TY_LIFETIMES; lifetime++)
+		CHECK(of_class[lifetime] > 1000, "only %zu of lifetime %d", of_class[lifetime], lifetime);
+}
+
 static void
 the_count_falls_at_the_very_scale(void)
 {
@@ -279,6 +308,7 @@ main(int argc, char **argv)
 	RUN(statistics_are_those_of_the_members);
 	RUN(leaves_parents_and_costs_make_a_tree);
 	RUN(every_node_is_stored_once);
+	RUN(what_is_alive_is_searched_for);
 	RUN(the_count_falls_at_the_very_scale);
 	RUN(counts_without_a_scale);
 	RUN(quantiles_are_those_of_the_range);
