@@ -148,10 +148,20 @@ function statements() {
 	statement_rows("count scan measure envelopes delaunay typify unmerged to_one placeholders cluster blocks districts", 1)
 }
 
+function option_row(name, figure, i) {
+	for (i = 1; i <= columns; i++) cell[i] = has(column[i], figure) ? of(column[i], figure, "typify") : ""
+	row(name)
+}
+
 function options() {
 	section("Options", "What each costs on the sets that are like towns.")
 	head("statement", "")
-	statement_rows("typify s_u_0 s_u_1 counted to_one min_distance black_white median sum square", 1)
+	statement_rows("typify s_u_0 s_u_1 counted to_one min_distance black_white median sum square footprint min_area " \
+		"keep_area placeholders importance alignment legible barriers barrier_gaps", 1)
+	option_row("`min_side` and `min_gap` / plain (goal 2)", "legible")
+	option_row("`alignment` / plain", "alignment")
+	option_row("`barriers` / plain (goal 4)", "barriers")
+	option_row("`barriers` with `min_side` and `min_gap` / plain (goal 4)", "barrier_gaps")
 }
 
 function hierarchies(i) {

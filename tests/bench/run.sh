@@ -43,20 +43,25 @@ make_data() {
 	finish_table "bench_$1"
 }
 
-# Leipzig as it is, or laid out 3 x 3 where that is too few; of it the N buildings nearest to the middle.
-make_real() {
+# Leipzig as it is, or laid out 3 x 3 where that is too few; of it the N buildings nearest to the middle, and all roads.
+make_real() { # make_real BUILDINGS ROADS
 	local columns='id bigint, class text, geom geometry' copies=2
 	if [ "$N" -le 122526 ]; then copies=0; fi
 	sql -c "CREATE TABLE leipzig ($columns)" \
 		-c '\copy leipzig FROM PSTDIN WITH (FORMAT csv, HEADER true)' < <(gzip -dc "$1")
+	sql -c "CREATE TABLE leipzig_roads ($columns)" \
+		-c '\copy leipzig_roads FROM PSTDIN WITH (FORMAT csv, HEADER true)' < <(gzip -dc "$2")
 	sql <<-SQL
+		CREATE TABLE bench_real_roads AS
+		SELECT ST_Translate(geom, i * 34000, j * 31000) AS geom
+		FROM leipzig_roads, generate_series(0, $copies) AS i, generate_series(0, $copies) AS j;
 		CREATE TABLE copies AS
 		SELECT row_number() OVER () AS id, ST_Translate(geom, i * 34000, j * 31000) AS geom
 		FROM leipzig, generate_series(0, $copies) AS i, generate_series(0, $copies) AS j;
 		CREATE TABLE bench_real_raw AS
 		SELECT id, geom FROM copies
 		ORDER BY geom <-> (SELECT ST_SetSRID(ST_Centroid(ST_Extent(geom)::geometry), 25833) FROM copies), id LIMIT $N;
-		DROP TABLE copies, leipzig;
+		DROP TABLE copies, leipzig, leipzig_roads;
 	SQL
 	finish_table bench_real
 }
@@ -146,12 +151,12 @@ for set in $SETS; do
 	case $set in
 		uniform | jittered_grid | towns) make_data $set "$N" ;;
 		real)
-			real=$TYPIFY_DATA/leipzig_2017/buildings.csv.gz
-			if [ ! -r "$real" ]; then
+			real=$TYPIFY_DATA/leipzig_2017
+			if [ ! -r "$real/buildings.csv.gz" ] || [ ! -r "$real/roads.csv.gz" ]; then
 				say "skipped: no $real (TYPIFY_DATA), so nothing is measured on real buildings"
 				continue
 			fi
-			make_real "$real"
+			make_real "$real/buildings.csv.gz" "$real/roads.csv.gz"
 			;;
 	esac
 	measure $set
@@ -162,11 +167,12 @@ for set in $SETS; do
 			all_runs $set "${WORKERS[@]}"
 			show_plan $set workers
 			all_runs $set "${OPTIONS[@]}"
+			if [ $set = real ]; then all_runs real "${BARRIERS[@]}"; fi
 			all_runs $set "${HIERARCHY[@]}"
 			tile_runs $set
 			;;
 	esac
-	sql -c "DROP TABLE IF EXISTS bench_$set, bench_${set}_parts, bench_tree, bench_tree_groups"
+	sql -c "DROP TABLE IF EXISTS bench_$set, bench_${set}_parts, bench_tree, bench_tree_groups, bench_${set}_roads"
 done
 for statement in "${!STATEMENT[@]}"; do
 	note query "$statement" "\`${STATEMENT[$statement]//@/b}\`${WORDS[$statement]:+, ${WORDS[$statement]}}"

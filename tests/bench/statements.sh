@@ -2,7 +2,9 @@
 # of a statement, where it needs any, are in SETTINGS. Each returns one small row, so that nothing but the work counts.
 
 ROUND=(count scan measure envelopes delaunay typify unmerged to_one placeholders cluster blocks districts)
-OPTIONS=(typify s_u_0 s_u_1 counted to_one min_distance black_white median sum square)
+OPTIONS=(typify s_u_0 s_u_1 counted to_one min_distance black_white median sum square footprint min_area keep_area
+	placeholders importance alignment legible)
+BARRIERS=(typify barriers barrier_gaps) # where there are roads
 HIERARCHY=(typify hierarchy build_hierarchy write_hierarchy lookups)
 WORKERS=(serial workers typify typify_workers)
 
@@ -30,6 +32,14 @@ declare -A STATEMENT=(
 	[build_hierarchy]="CALL typify_build_hierarchy('bench_tree', '@', 0.5)"
 	[write_hierarchy]="SELECT bench_write_hierarchy('bench_tree')"
 	[lookups]="SELECT bench_lookups('bench_tree', '@')"
+	[legible]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(min_side => 0.35, min_gap => 0.2))) FROM @"
+	[alignment]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(alignment => 4))) FROM @"
+	[importance]='SELECT cardinality(typify_placeholders(geom, id, 75000, 0.5, NULL, 1.0 + id % 3)) FROM @'
+	[keep_area]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(keep_area => 0.5))) FROM @"
+	[min_area]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(min_area => 50))) FROM @"
+	[footprint]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(shape => 'footprint'))) FROM @"
+	[barriers]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(barriers => (SELECT ST_Collect(geom) FROM @_roads)))) FROM @"
+	[barrier_gaps]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(min_side => 0.35, min_gap => 0.2, barrier_width => 0.5, barriers => (SELECT ST_Collect(geom) FROM @_roads)))) FROM @"
 	[square]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(shape => 'square'))) FROM @"
 )
 STATEMENT[serial]=${STATEMENT[districts]/@/@_parts}
