@@ -38,8 +38,9 @@ declare -A STATEMENT=(
 	[keep_area]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(keep_area => 0.5))) FROM @"
 	[min_area]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(min_area => 50))) FROM @"
 	[footprint]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(shape => 'footprint'))) FROM @"
-	[barriers]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(barriers => (SELECT ST_Collect(geom) FROM @_roads)))) FROM @"
-	[barrier_gaps]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(min_side => 0.35, min_gap => 0.2, barrier_width => 0.5, barriers => (SELECT ST_Collect(geom) FROM @_roads)))) FROM @"
+	[barriers]="SELECT pg_column_size(typify(geom, 75000, 0.5, (SELECT typify_options(barriers => ST_Collect(geom)) FROM @_roads))) FROM @"
+	[barrier_gaps]="SELECT pg_column_size(typify(geom, 75000, 0.5, (SELECT typify_options(min_side => 0.35, min_gap => 0.2, barrier_width => 0.5, barriers => \
+ST_Collect(geom)) FROM @_roads))) FROM @"
 	[square]="SELECT pg_column_size(typify(geom, 75000, 0.5, typify_options(shape => 'square'))) FROM @"
 )
 STATEMENT[serial]=${STATEMENT[districts]/@/@_parts}
