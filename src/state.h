@@ -18,12 +18,12 @@ typedef struct ty_state
 	uint64 generation;		/* of the call's parameters when they were last found equal to these */
 	int32 srid;
 	Oid geometry_type;
-	double metres_per_unit; /* of the SRID */
-	MemoryContext context;	/* of the state and its arrays */
-	ty_parameters parameters;
 	/* [capacity] what placeholders are drawn with, NULL for a building that has none; NULL while no building has one */
 	ty_outline **outlines;
-	double *importance;		  /* [capacity] of the buildings; NULL as long as all are 1 */
+	double *importance;		/* [capacity] of the buildings; NULL as long as all are 1 */
+	MemoryContext context;	/* of the state and its arrays */
+	double metres_per_unit; /* of the SRID */
+	ty_parameters parameters;
 	Oid hierarchy;			  /* table in which typify_write_hierarchy puts the nodes, */
 	int32 group_id;			  /* those of this group */
 	ty_barrier_set *barriers; /* of the parameters; NULL too in a state that another process sent without them */
