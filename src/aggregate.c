@@ -583,17 +583,27 @@ typify_sites_final(PG_FUNCTION_ARGS)
 	PG_RETURN_DATUM(array);
 }
 
+/* The state of a group whose hierarchy is made, with ids that differ; NULL: there are no rows. */
+static const ty_state *
+hierarchy_state(FunctionCallInfo fcinfo)
+{
+	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
+
+	aggregate_context(fcinfo);
+	if (s != NULL)
+		check_ids(s);
+	return s;
+}
+
 PG_FUNCTION_INFO_V1(typify_hierarchy_final);
 Datum
 typify_hierarchy_final(PG_FUNCTION_ARGS)
 {
-	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
+	const ty_state *s = hierarchy_state(fcinfo);
 	ty_input input;
 
-	aggregate_context(fcinfo);
 	if (s == NULL)
 		PG_RETURN_NULL();
-	check_ids(s);
 	input = input_of(s);
 	PG_RETURN_DATUM(ty_node_array(fcinfo, &input, &s->parameters));
 }
@@ -602,13 +612,11 @@ PG_FUNCTION_INFO_V1(typify_write_hierarchy_final);
 Datum
 typify_write_hierarchy_final(PG_FUNCTION_ARGS)
 {
-	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
+	const ty_state *s = hierarchy_state(fcinfo);
 	ty_input input;
 
-	aggregate_context(fcinfo);
 	if (s == NULL)
 		PG_RETURN_NULL();
-	check_ids(s);
 	input = input_of(s);
 	PG_RETURN_DATUM(ty_write_nodes(fcinfo, s, &input));
 }

@@ -87,6 +87,7 @@ take_chunk(ty_run *run, uint32_t next)
 	return taken;
 }
 
+/* Puts a vertex into its bucket. */
 static ty_status
 put(ty_run *run, ty_addition a)
 {
@@ -253,7 +254,7 @@ look_at_slice(ty_run *run, uint32_t b, const uint32_t *slice, size_t count)
 	lookout looked = {.count = 0};
 	ty_status status = TY_OK;
 
-	for (size_t i = 0; i < count; i++)
+	for (size_t i = 0; i < count; i++) /* all of the slice, so that no walk has to begin by waiting */
 		if (is_waiting(run, slice[i], b))
 			__builtin_prefetch(&run->vertex[slice[i]]);
 	for (size_t i = 0; i < count && status == TY_OK; i++)

@@ -40,7 +40,7 @@ typedef struct ty_addition
 	uint32_t vertex, bucket;
 } ty_addition;
 
-#define TY_ADDED 32
+#define TY_ADDED 32 /* put into their buckets together, before the next bucket is emptied at the latest */
 
 /* The priority order of the edges: see the head of collapse_queue.c. */
 typedef struct ty_queue
@@ -55,8 +55,7 @@ typedef struct ty_queue
 	ty_edge passed;	   /* the limit before: entries in buckets are above it */
 	ty_bucket *bucket; /* [buckets] those before `next` are empty */
 	uint32_t buckets, next;
-	ty_addition
-		added[TY_ADDED]; /* put into their buckets many at a time, before the next one is emptied at the latest */
+	ty_addition added[TY_ADDED]; /* not in their buckets yet */
 	size_t added_count;
 	int shift; /* a key's bits below a bucket's number */
 	ty_chunk *chunk;
