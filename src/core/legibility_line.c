@@ -75,7 +75,7 @@ ty_is_across(const ty_ladder *l, uint32_t i)
 	const ty_site *s = &l->sites[i];
 	ty_point centre = {l->origin.x + l->body[i].box.x, l->origin.y + l->body[i].box.y};
 
-	if (!l->by_line[i] || (s->moved.x == 0 && s->moved.y == 0 && s->shift.x == 0 && s->shift.y == 0))
+	if (!l->by_line[i] || (l->place[i].moved.x == 0 && l->place[i].moved.y == 0 && !l->body[i].shifted))
 		return false;
 	return ty_barrier_segments_cross(l->rules->lines, l->line_list,
 									 lines_within(l, length_of(centre.x - s->home.x, centre.y - s->home.y)), s->home,
