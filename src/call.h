@@ -9,6 +9,7 @@
 #include "compat.h"
 #include "constancy.h"
 #include "core/placeholder.h"
+#include "pool.h"
 #include "srid.h"
 
 /*
@@ -32,6 +33,7 @@ typedef struct ty_call
 	ty_barrier_hash barriers_argument; /* once parsed */
 	uint64 generation;				   /* counts how often parameters changed */
 	ty_srid_cache srids;
+	ty_pools pools; /* of an aggregate */
 } ty_call;
 
 /*
