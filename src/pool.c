@@ -173,13 +173,6 @@ ty_pool_begin_group(ty_pool *pool)
 
 /* --- sorting by group --- */
 
-static void
-check_interrupts_at(size_t step)
-{
-	if (step % 65536 == 0)
-		CHECK_FOR_INTERRUPTS();
-}
-
 /* Finds where each group is to lie, and gives each place the number of the building that belongs there. */
 static void
 find_places(ty_pool *pool, uint32 *origin)
@@ -194,46 +187,118 @@ find_places(ty_pool *pool, uint32 *origin)
 	/* from behind, so that each group's buildings stay in the order in which they came */
 	for (size_t i = pool->count; i-- > 0;)
 	{
-		check_interrupts_at(i);
+		if (i % 65536 == 0)
+			CHECK_FOR_INTERRUPTS();
 		origin[--start[pool->group[i]]] = (uint32) i;
 	}
 }
 
-/* Takes an element of each column. */
-static inline void
-move_building(ty_pool *pool, size_t to, size_t from)
+/*
+ * Buildings change places along the cycles of a permutation, where each step waits for memory to say where the next one
+ * leads. So this many paths are followed side by side: a million buildings in groups of ten took 57 ms, and take 30.
+ */
+#define PATHS 32
+
+/* A path begins at a place whose building is held, and ends where that of a path is wanted. */
+typedef struct path
 {
-	pool->buildings[to] = pool->buildings[from];
+	uint32 first;
+	uint32 place; /* free */
+	uint32 from;  /* of the building that belongs there */
+	ty_building building;
+	double importance;
+	ty_outline *outline;
+} path;
+
+static inline void
+move_building(ty_pool *pool, uint32 place, uint32 from)
+{
+	pool->buildings[place] = pool->buildings[from];
 	if (unlikely(pool->importance != NULL))
-		pool->importance[to] = pool->importance[from];
+		pool->importance[place] = pool->importance[from];
 	if (unlikely(pool->outlines != NULL))
-		pool->outlines[to] = pool->outlines[from];
+		pool->outlines[place] = pool->outlines[from];
 }
 
-/* The cycle of the permutation that begins at a place; origin of its places becomes the places themselves. */
+/* Puts in the building that a path holds. */
 static void
-follow_cycle(ty_pool *pool, uint32 *origin, uint32 first)
+put_building(ty_pool *pool, uint32 place, const path *holder)
 {
-	ty_building building = pool->buildings[first];
-	double importance = pool->importance != NULL ? pool->importance[first] : 1;
-	ty_outline *outline = pool->outlines != NULL ? pool->outlines[first] : NULL;
-	uint32 place = first;
-
-	while (origin[place] != first)
-	{
-		uint32 from = origin[place];
-
-		check_interrupts_at(from);
-		move_building(pool, place, from);
-		origin[place] = place;
-		place = from;
-	}
-	origin[place] = place;
-	pool->buildings[place] = building;
+	pool->buildings[place] = holder->building;
 	if (pool->importance != NULL)
-		pool->importance[place] = importance;
+		pool->importance[place] = holder->importance;
 	if (pool->outlines != NULL)
-		pool->outlines[place] = outline;
+		pool->outlines[place] = holder->outline;
+}
+
+/* origin of places whose building is there, or held, is the place itself */
+static void
+begin_path(const ty_pool *pool, uint32 *origin, uint32 place, path *p)
+{
+	p->first = p->place = place;
+	p->from = origin[place];
+	origin[place] = place;
+	p->building = pool->buildings[place];
+	p->importance = pool->importance != NULL ? pool->importance[place] : 1;
+	p->outline = pool->outlines != NULL ? pool->outlines[place] : NULL;
+}
+
+/* False at the end of the path. */
+static inline bool
+follow_path(ty_pool *pool, uint32 *origin, path *p, const path *all)
+{
+	uint32 from = p->from, next = origin[from];
+
+	if (unlikely(next == from))
+	{
+		while (all->first != from)
+			all++;
+		put_building(pool, p->place, all);
+		return false;
+	}
+	move_building(pool, p->place, from);
+	__builtin_prefetch(&origin[next]);
+	__builtin_prefetch(&pool->buildings[next], 1);
+	__builtin_prefetch(&pool->buildings[next].uy, 1); /* mostly in the next cache line */
+	origin[from] = from;
+	p->place = from;
+	p->from = next;
+	return true;
+}
+
+static void
+follow_paths(ty_pool *pool, uint32 *origin, path *paths, int count)
+{
+	path *open[PATHS];
+
+	for (int i = 0; i < count; i++)
+		open[i] = &paths[i];
+	for (int left = count; left > 0;)
+	{
+		CHECK_FOR_INTERRUPTS();
+		for (int i = left; i-- > 0;)
+			if (!follow_path(pool, origin, open[i], paths))
+				open[i] = open[--left];
+	}
+}
+
+/* Brings each building to its place. */
+static void
+permute(ty_pool *pool, uint32 *origin)
+{
+	path paths[PATHS];
+	int count = 0;
+
+	for (size_t place = 0; place < pool->count; place++)
+	{
+		if (origin[place] != place)
+			begin_path(pool, origin, (uint32) place, &paths[count++]);
+		if (count == PATHS || place == pool->count - 1)
+		{
+			follow_paths(pool, origin, paths, count);
+			count = 0;
+		}
+	}
 }
 
 /* In place, since a few groups may be nearly all of the memory there is. After an interrupt nobody reads the pool. */
@@ -247,9 +312,7 @@ sort_by_group(ty_pool *pool)
 	pool->start = NULL;
 	pool->start = MemoryContextAllocHuge(pool->context, ((size_t) pool->groups + 1) * sizeof(uint32));
 	find_places(pool, origin);
-	for (size_t i = 0; i < pool->count; i++)
-		if (origin[i] != i)
-			follow_cycle(pool, origin, (uint32) i);
+	permute(pool, origin);
 	for (size_t g = 0; g < pool->groups; g++)
 		set_groups(pool, pool->start[g], pool->start[g + 1] - pool->start[g], (uint32) g);
 	pool->sorted = pool->count;
