@@ -173,24 +173,37 @@ ty_pool_begin_group(ty_pool *pool)
 
 /* --- sorting by group --- */
 
-/* Finds where each group is to lie, and gives each place the number of the building that belongs there. */
-static void
-find_places(ty_pool *pool, uint32 *origin)
+/* Finds where each group is to lie. False: they lie there already, as where the table is in the order of groups. */
+static bool
+find_starts(const ty_pool *pool, uint32 *start)
 {
-	uint32 *start = pool->start, sum = 0;
+	bool in_order = true;
+	uint32 sum = 0;
 
 	memset(start, 0, ((size_t) pool->groups + 1) * sizeof(uint32));
 	for (size_t i = 0; i < pool->count; i++)
-		start[pool->group[i]]++;
+	{
+		in_order &= i == 0 || pool->group[i - 1] <= pool->group[i];
+		start[pool->group[i] + 1]++;
+	}
 	for (size_t g = 0; g <= pool->groups; g++)
 		start[g] = sum += start[g];
-	/* from behind, so that each group's buildings stay in the order in which they came */
-	for (size_t i = pool->count; i-- > 0;)
+	return !in_order;
+}
+
+/* Gives each place the number of the building that belongs there; those of a group stay in the order they came in. */
+static void
+find_origins(const ty_pool *pool, uint32 *start, uint32 *origin)
+{
+	for (size_t i = 0; i < pool->count; i++)
 	{
 		if (i % 65536 == 0)
 			CHECK_FOR_INTERRUPTS();
-		origin[--start[pool->group[i]]] = (uint32) i;
+		origin[start[pool->group[i]]++] = (uint32) i;
 	}
+	/* each has come to where the next one starts */
+	memmove(start + 1, start, pool->groups * sizeof(uint32));
+	start[0] = 0;
 }
 
 /*
@@ -303,20 +316,27 @@ permute(ty_pool *pool, uint32 *origin)
 
 /* In place, since a few groups may be nearly all of the memory there is. After an interrupt nobody reads the pool. */
 static void
-sort_by_group(ty_pool *pool)
+bring_together(ty_pool *pool)
 {
 	uint32 *origin = MemoryContextAllocHuge(pool->context, pool->count * sizeof(uint32));
 
+	find_origins(pool, pool->start, origin);
+	permute(pool, origin);
+	for (size_t g = 0; g < pool->groups; g++)
+		set_groups(pool, pool->start[g], pool->start[g + 1] - pool->start[g], (uint32) g);
+	pfree(origin);
+}
+
+static void
+sort_by_group(ty_pool *pool)
+{
 	if (pool->start != NULL)
 		pfree(pool->start);
 	pool->start = NULL;
 	pool->start = MemoryContextAllocHuge(pool->context, ((size_t) pool->groups + 1) * sizeof(uint32));
-	find_places(pool, origin);
-	permute(pool, origin);
-	for (size_t g = 0; g < pool->groups; g++)
-		set_groups(pool, pool->start[g], pool->start[g + 1] - pool->start[g], (uint32) g);
+	if (find_starts(pool, pool->start))
+		bring_together(pool);
 	pool->sorted = pool->count;
-	pfree(origin);
 }
 
 size_t
