@@ -109,7 +109,7 @@ ty_enter_site(ty_ladder *l, uint32_t i)
 	l->by_line[i] = false;
 	reach = reach_of(l, i);
 	l->by_line[i] = true; /* which has a longer way, off the line */
-	status = ty_meet_lines(l, i, reach, reach_of(l, i));
+	status = l->unmet ? TY_OK : ty_meet_lines(l, i, reach, reach_of(l, i));
 	ty_vicinity_insert(&l->near, i, (ty_point){s->home.x - l->origin.x, s->home.y - l->origin.y}, reach_of(l, i));
 	return status;
 }
@@ -331,8 +331,10 @@ join_nearest(ty_ladder *l, uint32_t i, uint8_t *touched)
 {
 	uint32_t nearest, kept;
 	bool across;
-	ty_status status = ty_nearest_site(l, i, &nearest, &across);
+	ty_status status = l->by_line[i] ? ty_recall_lines(l, i) : TY_OK;
 
+	if (status == TY_OK)
+		status = ty_nearest_site(l, i, &nearest, &across);
 	if (status == TY_OK && nearest != TY_NO_SITE)
 	{
 		status = ty_join_sites(l, i, nearest, across ? nearest : TY_NO_SITE, &kept);
@@ -558,6 +560,8 @@ run(ty_ladder *l)
 		memset(touched, 0, l->n * sizeof *touched);
 	if (status == TY_OK)
 		status = ty_thin_out(l);
+	if (status == TY_OK)
+		status = ty_thin_cells(l);
 	for (bool again = true, relented = false; status == TY_OK && again;)
 	{
 		activate_all(l);
@@ -633,6 +637,7 @@ free_ladder(ty_ladder *l)
 	ty_lists_free(&l->lines_of);
 	ty_release(l->env, l->segments.number);
 	ty_release(l->env, l->segments.distance);
+	ty_release(l->env, l->neighbours);
 	ty_release(l->env, l->next);
 	ty_release(l->env, l->listed);
 	ty_release(l->env, l->degree);
@@ -672,6 +677,7 @@ enter_all(ty_ladder *l)
 {
 	ty_status status = measure_sites(l);
 
+	l->unmet = l->rules->lines != NULL && l->rules->join != NULL;
 	if (status == TY_OK)
 		status = ty_vicinity_begin(l->env, l->n, &l->near);
 	for (size_t i = 0; status == TY_OK && i < l->n; i++)

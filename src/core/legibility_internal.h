@@ -14,6 +14,13 @@ typedef struct ty_conflict
 	double lack;
 } ty_conflict;
 
+/* A site as another one sees it. */
+typedef struct ty_neighbour
+{
+	double squared; /* distance from home to home */
+	uint32_t number;
+} ty_neighbour;
+
 /* What of a site tells whether another is too near: no more than a cache line, since millions of pairs are looked at. */
 typedef struct ty_body
 {
@@ -35,6 +42,7 @@ typedef struct ty_ladder
 	double line_target; /* the same for lines; 0: there are none */
 	double line_gap;
 	bool *by_line;		  /* [n] whether a line is in reach of the site */
+	bool unmet;			  /* lines are not looked for yet: all sites count as if one were in reach */
 	ty_body *body;		  /* [n] where each is now: cache lines of ... */
 	void *body_memory;	  /* ... this, which begins a little before */
 	ty_point *start;	  /* [n] moved, as given */
@@ -49,6 +57,9 @@ typedef struct ty_ladder
 	const uint32_t *line_list;	/* [line_count] segments in reach of the same site, where it is by_line */
 	const float *line_distance; /* ... from the nearest to its home on */
 	size_t line_count;
+	double line_limit;		  /* there are no others as near to its home as this */
+	ty_neighbour *neighbours; /* [neighbour_capacity] who is being asked */
+	size_t neighbour_capacity;
 	uint32_t *active; /* [active_count] sites that may be in a conflict: at least one of the two of each */
 	uint32_t *next;	  /* those of the next round */
 	size_t active_count, next_count;
@@ -109,6 +120,8 @@ bool ty_may_join(const ty_ladder *l, uint32_t a, uint32_t b);
  * across one.
  */
 double ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away);
+/* The same for it as the box, whose half diagonal is the radius. */
+double ty_box_line_lack(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radius, ty_point *away);
 bool ty_is_line_conflict(const ty_ladder *l, double lack);
 /* Whether a fixed site, which does not yield, is too near to a line. */
 bool ty_fixed_by_line(const ty_ladder *l, uint32_t i);
@@ -118,6 +131,10 @@ bool ty_fixed_by_line(const ty_ladder *l, uint32_t i);
  */
 ty_status ty_meet_lines(ty_ladder *l, uint32_t i, double reach, double reach_by_line);
 ty_status ty_recall_lines(ty_ladder *l, uint32_t i);
+/* Lists in l->line_list the segments that come nearer to home than limit, without keeping the list. */
+ty_status ty_list_lines(ty_ladder *l, uint32_t i, double limit);
+/* Whether a line lies between the site's home and a place, counted from the origin; or where it has come to lie. */
+bool ty_is_behind_line(const ty_ladder *l, uint32_t i, ty_point place);
 /* Whether the site has come to lie on the other side of a line. */
 bool ty_is_across(const ty_ladder *l, uint32_t i);
 /* The nearest that is drawn: of those that it may be joined to or, if there is none near, of all. */
@@ -181,6 +198,8 @@ ty_play(const ty_ladder *l, const ty_site *s)
 
 /* legibility_thin.c: joins or hides where so many sites crowd that nothing else can help. */
 ty_status ty_thin_out(ty_ladder *l);
+/* legibility_cell.c: joins what finds no room between lines; all sites meet theirs. */
+ty_status ty_thin_cells(ty_ladder *l);
 /* legibility_settle.c: rounds of shrinking and displacing; below: also below true size. */
 ty_status ty_settle(ty_ladder *l, int rounds, bool below);
 /* legibility_settle.c: takes back what was not needed. */

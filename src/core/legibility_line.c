@@ -6,6 +6,18 @@
 #define ASKED \
 	32 /* so many of the nearest sites are asked whether a line lies between: who is farther is no neighbour */
 
+ty_status
+ty_list_lines(ty_ladder *l, uint32_t i, double limit)
+{
+	ty_status status = ty_barrier_lines_near(l->rules->lines, l->sites[i].home, limit, &l->segments);
+
+	l->line_count = l->segments.count;
+	l->line_list = l->segments.number;
+	l->line_distance = l->segments.distance;
+	l->line_limit = limit;
+	return status;
+}
+
 /*
  * Lists which segments are in reach, with all that a site may come to: so nothing is searched for in the rounds. Most
  * of the time of barriers with gaps was.
@@ -13,7 +25,7 @@
 static ty_status
 find_lines(ty_ladder *l, uint32_t i, double reach)
 {
-	ty_status status = ty_barrier_lines_near(l->rules->lines, l->sites[i].home, reach + l->line_target, &l->segments);
+	ty_status status = ty_list_lines(l, i, reach + l->line_target);
 	const uint32_t *list;
 
 	if (status != TY_OK)
@@ -45,6 +57,7 @@ ty_recall_lines(ty_ladder *l, uint32_t i)
 
 	if (list == NULL)
 		return find_lines(l, i, l->near.discs[i].radius);
+	l->line_limit = l->near.discs[i].radius + l->line_target;
 	l->line_count = list[0] / 2;
 	l->line_list = list + 1;
 	l->line_distance = (const float *) (list + 1 + l->line_count);
@@ -70,16 +83,23 @@ length_of(double dx, double dy)
 }
 
 bool
+ty_is_behind_line(const ty_ladder *l, uint32_t i, ty_point place)
+{
+	const ty_site *s = &l->sites[i];
+	ty_point to = {l->origin.x + place.x, l->origin.y + place.y};
+
+	return ty_barrier_segments_cross(l->rules->lines, l->line_list,
+									 lines_within(l, length_of(to.x - s->home.x, to.y - s->home.y)), s->home, to);
+}
+
+bool
 ty_is_across(const ty_ladder *l, uint32_t i)
 {
 	const ty_site *s = &l->sites[i];
-	ty_point centre = {l->origin.x + l->body[i].box.x, l->origin.y + l->body[i].box.y};
 
 	if (!l->by_line[i] || (s->moved.x == 0 && s->moved.y == 0 && s->shift.x == 0 && s->shift.y == 0))
 		return false;
-	return ty_barrier_segments_cross(l->rules->lines, l->line_list,
-									 lines_within(l, length_of(centre.x - s->home.x, centre.y - s->home.y)), s->home,
-									 centre);
+	return ty_is_behind_line(l, i, (ty_point){l->body[i].box.x, l->body[i].box.y});
 }
 
 /* ---- how near a line comes ---- */
@@ -147,24 +167,35 @@ surely_beyond(ty_point place, double reach, ty_point a, ty_point b)
 		   (a.y > place.y + reach && b.y > place.y + reach) || (a.y < place.y - reach && b.y < place.y - reach);
 }
 
-/* How near a line comes to the box, or limit; *away: in which direction it would have to go. radius: half its diagonal. */
+/*
+ * How near a line comes to the box, or limit; *away: in which direction it would have to go. radius: half its diagonal.
+ * Segments come from the nearest to home on: what is farther than the nearest so far is not looked at.
+ */
 static double
 line_distance(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radius, double limit, ty_point *away)
 {
 	const ty_point home = l->sites[i].home;
 	ty_point centre = {l->origin.x + box->x, l->origin.y + box->y};
 	clearance c = {limit * limit, {0, 0}};
-	double distance, reach = (radius + limit) * (1 + 1e-6);
-	size_t count = lines_within(l, reach + length_of(centre.x - home.x, centre.y - home.y));
+	double distance, reach = (radius + limit) * (1 + 1e-6), from_home = length_of(centre.x - home.x, centre.y - home.y);
+	size_t count = lines_within(l, reach + from_home);
 
 	for (size_t k = 0; k < count && c.squared > 0; k++)
 	{
+		double before = c.squared;
 		ty_point a, b;
 
 		ty_segment_ends(l->rules->lines, l->line_list[k], &a, &b);
-		if (!surely_beyond(centre, reach, a, b))
-			look_at_segment(box, into_frame(box, a.x - centre.x, a.y - centre.y),
-							into_frame(box, b.x - centre.x, b.y - centre.y), &c);
+		if (surely_beyond(centre, reach, a, b))
+			continue;
+		look_at_segment(box, into_frame(box, a.x - centre.x, a.y - centre.y),
+						into_frame(box, b.x - centre.x, b.y - centre.y), &c);
+		if (c.squared < before)
+		{
+			reach = (radius + sqrt(c.squared)) * (1 + 1e-6);
+			while (count > k && l->line_distance[count - 1] > (reach + from_home) * (1 + 1e-6) + 1e-6 * l->line_target)
+				count--;
+		}
 	}
 	distance = sqrt(c.squared);
 	if (!(distance < limit))
@@ -175,29 +206,28 @@ line_distance(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radiu
 	return distance;
 }
 
-/* A line meets the site: away from the line that is nearest to its centre. */
+/* A line meets the box: away from the line that is nearest to its centre, by what it takes at least. */
 static double
-lack_of_crossed(const ty_ladder *l, uint32_t i, ty_point *away)
+lack_of_crossed(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radius, ty_point *away)
 {
-	const ty_oblong *box = &l->body[i].box;
 	ty_oblong centre = {box->x, box->y, box->ux, box->uy, 0, 0};
 
 	*away = (ty_point){-box->uy, box->ux};
-	return ty_extent(box, *away) + l->line_target -
-		   line_distance(l, i, &centre, 0, l->body[i].radius + l->line_target, away);
+	return box->half_width + l->line_target - line_distance(l, i, &centre, 0, radius + l->line_target, away);
+}
+
+double
+ty_box_line_lack(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radius, ty_point *away)
+{
+	double distance = line_distance(l, i, box, radius, l->line_target, away);
+
+	return distance > 0 ? l->line_target - distance : fmax(lack_of_crossed(l, i, box, radius, away), l->line_target);
 }
 
 double
 ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away)
 {
-	double distance;
-
-	if (!l->by_line[i])
-		return 0;
-	distance = line_distance(l, i, &l->body[i].box, l->body[i].radius, l->line_target, away);
-	if (distance > 0)
-		return l->line_target - distance;
-	return fmax(lack_of_crossed(l, i, away), l->line_target);
+	return l->by_line[i] ? ty_box_line_lack(l, i, &l->body[i].box, l->body[i].radius, away) : 0;
 }
 
 bool
@@ -241,35 +271,69 @@ squared_distance(const ty_ladder *l, uint32_t a, uint32_t b)
 	return dx * dx + dy * dy;
 }
 
-/* The nearest of those found that is farther than `beyond`, or as far with a greater number; TY_NO_SITE: none. */
-static uint32_t
-next_nearest(const ty_ladder *l, uint32_t i, double beyond, uint32_t after)
+/* One who was found, and how far away. */
+static bool
+is_nearer(ty_neighbour a, ty_neighbour b)
 {
-	uint32_t best = TY_NO_SITE;
-	double least = INFINITY;
-
-	for (size_t m = 0; m < l->near.found_count; m++)
-	{
-		uint32_t j = l->near.found[m];
-		double d = squared_distance(l, i, j);
-
-		if (d < beyond || (d == beyond && after != TY_NO_SITE && j <= after))
-			continue;
-		if (d < least || (d == least && j < best))
-		{
-			least = d;
-			best = j;
-		}
-	}
-	return best;
+	return a.squared < b.squared || (a.squared == b.squared && a.number < b.number);
 }
 
-/* Whether one of the lines in reach lies between: mostly it is one of these, and they are at hand. */
-static bool
-is_behind_near_line(const ty_ladder *l, uint32_t i, uint32_t j)
+/* Lets the neighbour at k sink to where those below it in the heap are no nearer. */
+static void
+sink(ty_neighbour *heap, size_t count, size_t k)
 {
-	return l->by_line[i] &&
-		   ty_barrier_segments_cross(l->rules->lines, l->line_list, l->line_count, l->sites[i].home, l->sites[j].home);
+	ty_neighbour sinking = heap[k];
+
+	for (size_t child = 2 * k + 1; child < count; child = 2 * k + 1)
+	{
+		child += child + 1 < count && is_nearer(heap[child + 1], heap[child]);
+		if (!is_nearer(heap[child], sinking))
+			break;
+		heap[k] = heap[child];
+		k = child;
+	}
+	heap[k] = sinking;
+}
+
+/* Those found that are farther than `after`, as a heap with the nearest on top. */
+static ty_status
+gather_neighbours(ty_ladder *l, uint32_t i, ty_neighbour after, size_t *count)
+{
+	if (l->neighbour_capacity < l->near.found_count)
+	{
+		ty_release(l->env, l->neighbours);
+		l->neighbour_capacity = 0;
+		l->neighbours = ty_allocate_array(l->env, l->near.found_capacity, sizeof *l->neighbours);
+		if (l->neighbours == NULL)
+			return TY_NO_MEMORY;
+		l->neighbour_capacity = l->near.found_capacity;
+	}
+	*count = 0;
+	for (size_t m = 0; m < l->near.found_count; m++)
+	{
+		ty_neighbour n = {squared_distance(l, i, l->near.found[m]), l->near.found[m]};
+
+		if (after.number == TY_NO_SITE || is_nearer(after, n))
+			l->neighbours[(*count)++] = n;
+	}
+	for (size_t k = *count / 2; k-- > 0;)
+		sink(l->neighbours, *count, k);
+	return TY_OK;
+}
+
+/* Whether the two may be joined. The lines in reach are at hand: mostly it is one of these that lies between. */
+static bool
+is_on_its_side(const ty_ladder *l, uint32_t i, ty_neighbour n)
+{
+	const ty_point from = l->sites[i].home, to = l->sites[n.number].home;
+
+	if (l->sites[i].group != l->sites[n.number].group)
+		return false;
+	if (l->by_line[i] && ty_barrier_segments_cross(l->rules->lines, l->line_list, l->line_count, from, to))
+		return false;
+	if (l->by_line[i] && n.squared * (1 + 1e-6) < l->line_limit * l->line_limit)
+		return true;
+	return ty_may_join(l, i, n.number);
 }
 
 /* The nearest that it may be joined to, of the ASKED nearest; if there is none, the very nearest. */
@@ -277,32 +341,32 @@ ty_status
 ty_nearest_site(ty_ladder *l, uint32_t i, uint32_t *nearest, bool *across)
 {
 	const ty_disc *disc = &l->near.discs[i];
-	double radius = disc->radius, at = 0;
-	uint32_t j = TY_NO_SITE;
+	double radius = disc->radius;
+	ty_neighbour last = {0, TY_NO_SITE};
 	int asked = 0;
 
 	*nearest = TY_NO_SITE;
 	*across = true;
-	if (l->by_line[i] && ty_recall_lines(l, i) != TY_OK)
-		return TY_NO_MEMORY;
 	for (bool all = false; !all; radius *= 2)
 	{
 		ty_status status = ty_vicinity_find(&l->near, i, (ty_point){disc->x, disc->y}, radius);
-		uint32_t next;
+		size_t count;
 
+		if (status == TY_OK)
+			status = gather_neighbours(l, i, last, &count);
 		if (status != TY_OK)
 			return status;
 		all = l->near.found_count + 1 >= l->near.there || !(radius < INFINITY);
 		/* who is farther than the radius may not be the next one */
-		while ((next = next_nearest(l, i, at, j)) != TY_NO_SITE &&
-			   (all || squared_distance(l, i, next) <= radius * radius))
+		while (count > 0 && (all || l->neighbours[0].squared <= radius * radius))
 		{
-			j = next;
-			at = squared_distance(l, i, j);
-			*nearest = *nearest == TY_NO_SITE ? j : *nearest;
-			*across = is_behind_near_line(l, i, j) || !ty_may_join(l, i, j);
+			last = l->neighbours[0];
+			l->neighbours[0] = l->neighbours[--count];
+			sink(l->neighbours, count, 0);
+			*nearest = *nearest == TY_NO_SITE ? last.number : *nearest;
+			*across = !is_on_its_side(l, i, last);
 			if (!*across)
-				*nearest = j;
+				*nearest = last.number;
 			if (!*across || ++asked == ASKED)
 				return TY_OK;
 		}
