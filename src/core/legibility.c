@@ -23,6 +23,7 @@
 #define ROUNDS 8		  /* of pushing before the next step of the ladder; three times as many save 1 % more sites */
 #define NEAR_EACH 32	  /* sites that are kept in mind; one in a town has 20 near it, of which 2 are in its way */
 #define LINES_EACH 80 /* two for a segment that is kept in mind; in a town with all its ways there are 20 in reach */
+#define SQUARE 2	  /* times as wide as what a site takes up: neighbours are mostly found in nine squares */
 #define SPARSE 64	  /* of so many sites one in a conflict is few */
 
 /* ---- sites ---- */
@@ -98,10 +99,18 @@ reach_of(const ty_ladder *l, uint32_t i)
 	return half_diagonal(s->full) + sqrt(s->shift.x * s->shift.x + s->shift.y * s->shift.y) + bound + 0.5 * l->target;
 }
 
+static void
+remove_home(ty_ladder *l, uint32_t i)
+{
+	if (l->homes.env != NULL && !(l->near.discs[i].radius < 0))
+		ty_squares_remove(&l->homes, i);
+}
+
 ty_status
 ty_enter_site(ty_ladder *l, uint32_t i)
 {
 	const ty_site *s = &l->sites[i];
+	ty_point home = {s->home.x - l->origin.x, s->home.y - l->origin.y};
 	double reach;
 	ty_status status;
 
@@ -110,8 +119,18 @@ ty_enter_site(ty_ladder *l, uint32_t i)
 	reach = reach_of(l, i);
 	l->by_line[i] = true; /* which has a longer way, off the line */
 	status = l->unmet ? TY_OK : ty_meet_lines(l, i, reach, reach_of(l, i));
-	ty_vicinity_insert(&l->near, i, (ty_point){s->home.x - l->origin.x, s->home.y - l->origin.y}, reach_of(l, i));
+	remove_home(l, i);
+	ty_vicinity_insert(&l->near, i, home, reach_of(l, i));
+	if (l->homes.env != NULL)
+		ty_squares_insert(&l->homes, i, home);
 	return status;
+}
+
+void
+ty_remove_site(ty_ladder *l, uint32_t i)
+{
+	remove_home(l, i);
+	ty_vicinity_remove(&l->near, i);
 }
 
 void
@@ -119,7 +138,7 @@ ty_hide_site(ty_ladder *l, uint32_t i)
 {
 	l->sites[i].state = TY_HIDDEN;
 	l->body[i].drawn = false;
-	ty_vicinity_remove(&l->near, i);
+	ty_remove_site(l, i);
 }
 
 /* What is known to be near others that the site may touch now is no longer all. */
@@ -146,8 +165,8 @@ ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t in_place, uint32_t 
 	ty_status status;
 
 	*kept = a < b ? a : b;
-	ty_vicinity_remove(&l->near, a);
-	ty_vicinity_remove(&l->near, b);
+	ty_remove_site(l, a);
+	ty_remove_site(l, b);
 	if (stays != TY_NO_SITE)
 	{
 		ty_leave_row(l, stays == a ? b : a);
@@ -170,7 +189,7 @@ ty_rehome_site(ty_ladder *l, uint32_t i, ty_point home)
 {
 	ty_status status;
 
-	ty_vicinity_remove(&l->near, i);
+	ty_remove_site(l, i);
 	l->sites[i].home = home;
 	l->sites[i].moved = l->start[i] = ty_rest(&l->sites[i]);
 	l->sites[i].relaid = true;
@@ -627,6 +646,7 @@ static void
 free_ladder(ty_ladder *l)
 {
 	ty_vicinity_free(&l->near);
+	ty_squares_free(&l->homes);
 	ty_release(l->env, l->body_memory);
 	ty_release(l->env, l->start);
 	ty_release(l->env, l->start_size);
@@ -637,7 +657,7 @@ free_ladder(ty_ladder *l)
 	ty_lists_free(&l->lines_of);
 	ty_release(l->env, l->segments.number);
 	ty_release(l->env, l->segments.distance);
-	ty_release(l->env, l->neighbours);
+	ty_release(l->env, l->asking.heap);
 	ty_release(l->env, l->next);
 	ty_release(l->env, l->listed);
 	ty_release(l->env, l->degree);
@@ -672,6 +692,22 @@ measure_sites(ty_ladder *l)
 	return isfinite(4 * (place + largest + l->target)) ? TY_OK : TY_NOT_FINITE;
 }
 
+/* of the sites that are drawn, as small as they may become */
+static double
+mean_length(const ty_ladder *l)
+{
+	double sum = 0;
+	size_t count = 0;
+
+	for (size_t i = 0; i < l->n; i++)
+		if (l->sites[i].state == TY_DRAWN)
+		{
+			sum += l->sites[i].least.length;
+			count++;
+		}
+	return sum / (double) count;
+}
+
 static ty_status
 enter_all(ty_ladder *l)
 {
@@ -680,6 +716,8 @@ enter_all(ty_ladder *l)
 	l->unmet = l->rules->lines != NULL && l->rules->join != NULL;
 	if (status == TY_OK)
 		status = ty_vicinity_begin(l->env, l->n, &l->near);
+	if (status == TY_OK && l->unmet)
+		status = ty_squares_begin(l->env, l->n, SQUARE * (mean_length(l) + l->target), &l->homes);
 	for (size_t i = 0; status == TY_OK && i < l->n; i++)
 	{
 		l->start[i] = l->sites[i].moved;

@@ -5,6 +5,7 @@
 #include "legibility.h"
 #include "lists.h"
 #include "separation.h"
+#include "squares.h"
 #include "vicinity.h"
 
 /* Two sites that are too near to each other. */
@@ -20,6 +21,15 @@ typedef struct ty_neighbour
 	double squared; /* distance from home to home */
 	uint32_t number;
 } ty_neighbour;
+
+/* Who of its neighbours a site may be joined to. */
+typedef struct ty_asking
+{
+	ty_neighbour *heap; /* [count] of those still to be asked, the nearest on top */
+	size_t count, capacity;
+	int asked;
+	ty_neighbour last; /* who was asked */
+} ty_asking;
 
 /* What of a site tells whether another is too near: no more than a cache line, since millions of pairs are looked at. */
 typedef struct ty_body
@@ -41,14 +51,16 @@ typedef struct ty_ladder
 	double target;		/* that is made, a bit more, so that it is reached in finite time */
 	double line_target; /* the same for lines; 0: there are none */
 	double line_gap;
-	bool *by_line;		  /* [n] whether a line is in reach of the site */
-	bool unmet;			  /* lines are not looked for yet: all sites count as if one were in reach */
-	ty_body *body;		  /* [n] where each is now: cache lines of ... */
-	void *body_memory;	  /* ... this, which begins a little before */
-	ty_point *start;	  /* [n] moved, as given */
-	double *start_size;	  /* [n] */
-	bool *frozen;		  /* [n] is back at its start and stays there */
-	ty_vicinity near;	  /* homes, with all that can be reached from there */
+	bool *by_line;		/* [n] whether a line is in reach of the site */
+	bool unmet;			/* lines are not looked for yet: all sites count as if one were in reach */
+	ty_body *body;		/* [n] where each is now: cache lines of ... */
+	void *body_memory;	/* ... this, which begins a little before */
+	ty_point *start;	/* [n] moved, as given */
+	double *start_size; /* [n] */
+	bool *frozen;		/* [n] is back at its start and stays there */
+	ty_vicinity near;	/* homes, with all that can be reached from there */
+	ty_squares homes;	/* with lines: of those in the vicinity; else none */
+	ty_asking asking;
 	ty_lists near_of;	  /* by site: who stands near, if that is known */
 	ty_lists lines_of;	  /* by site: which segments of lines are in reach (barrier.h), if that is known */
 	ty_segments segments; /* those last found */
@@ -57,11 +69,9 @@ typedef struct ty_ladder
 	const uint32_t *line_list;	/* [line_count] segments in reach of the same site, where it is by_line */
 	const float *line_distance; /* ... from the nearest to its home on */
 	size_t line_count;
-	double line_limit;		  /* there are no others as near to its home as this */
-	ty_neighbour *neighbours; /* [neighbour_capacity] who is being asked */
-	size_t neighbour_capacity;
-	uint32_t *active; /* [active_count] sites that may be in a conflict: at least one of the two of each */
-	uint32_t *next;	  /* those of the next round */
+	double line_limit; /* there are no others as near to its home as this */
+	uint32_t *active;  /* [active_count] sites that may be in a conflict: at least one of the two of each */
+	uint32_t *next;	   /* those of the next round */
 	size_t active_count, next_count;
 	bool *listed;			/* [n] stands in next */
 	uint32_t *degree;		/* [n] in how many conflicts it is, while some are being resolved */
@@ -108,8 +118,9 @@ ty_free_way(const ty_ladder *l, uint32_t i)
 void ty_place_box(ty_ladder *l, uint32_t i);
 /* The same where its size is what it was. */
 void ty_move_box(ty_ladder *l, uint32_t i);
-/* The site enters the vicinity, or leaves it for good. */
+/* The site enters the vicinity, leaves it, or leaves it for good. */
 ty_status ty_enter_site(ty_ladder *l, uint32_t i);
+void ty_remove_site(ty_ladder *l, uint32_t i);
 void ty_hide_site(ty_ladder *l, uint32_t i);
 /* Joins two sites; which of the numbers goes on. in_place: as for the rules' join. */
 ty_status ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t in_place, uint32_t *kept);

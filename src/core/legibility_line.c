@@ -4,7 +4,7 @@
 #include <math.h>
 
 #define ASKED \
-	32 /* so many of the nearest sites are asked whether a line lies between: who is farther is no neighbour */
+	12 /* so many of the nearest sites are asked whether a line lies between: who is farther is no neighbour */
 
 ty_status
 ty_list_lines(ty_ladder *l, uint32_t i, double limit)
@@ -295,29 +295,54 @@ sink(ty_neighbour *heap, size_t count, size_t k)
 	heap[k] = sinking;
 }
 
-/* Those found that are farther than `after`, as a heap with the nearest on top. */
-static ty_status
-gather_neighbours(ty_ladder *l, uint32_t i, ty_neighbour after, size_t *count)
+/* Lets the last of the neighbours rise to where the one above it in the heap is nearer. */
+static void
+rise(ty_neighbour *heap, size_t count)
 {
-	if (l->neighbour_capacity < l->near.found_count)
-	{
-		ty_release(l->env, l->neighbours);
-		l->neighbour_capacity = 0;
-		l->neighbours = ty_allocate_array(l->env, l->near.found_capacity, sizeof *l->neighbours);
-		if (l->neighbours == NULL)
-			return TY_NO_MEMORY;
-		l->neighbour_capacity = l->near.found_capacity;
-	}
-	*count = 0;
-	for (size_t m = 0; m < l->near.found_count; m++)
-	{
-		ty_neighbour n = {squared_distance(l, i, l->near.found[m]), l->near.found[m]};
+	size_t k = count - 1;
+	ty_neighbour rising = heap[k];
 
-		if (after.number == TY_NO_SITE || is_nearer(after, n))
-			l->neighbours[(*count)++] = n;
+	for (; k > 0 && is_nearer(rising, heap[(k - 1) / 2]); k = (k - 1) / 2)
+		heap[k] = heap[(k - 1) / 2];
+	heap[k] = rising;
+}
+
+static ty_neighbour
+take_nearest(ty_asking *asking)
+{
+	ty_neighbour nearest = asking->heap[0];
+
+	asking->heap[0] = asking->heap[--asking->count];
+	sink(asking->heap, asking->count, 0);
+	return nearest;
+}
+
+/* Of those found the ones that are farther than who was asked last become neighbours, the nearest on top of the heap. */
+static ty_status
+add_neighbours(ty_ladder *l, uint32_t i, const uint32_t *found, size_t count)
+{
+	ty_asking *asking = &l->asking;
+
+	if (asking->capacity < asking->count + count)
+	{
+		size_t capacity = 2 * (asking->count + count);
+		ty_neighbour *heap = asking->heap == NULL ? ty_allocate_array(l->env, capacity, sizeof *heap)
+												  : ty_reallocate_array(l->env, asking->heap, capacity, sizeof *heap);
+
+		if (heap == NULL)
+			return TY_NO_MEMORY;
+		asking->heap = heap;
+		asking->capacity = capacity;
 	}
-	for (size_t k = *count / 2; k-- > 0;)
-		sink(l->neighbours, *count, k);
+	for (size_t m = 0; m < count; m++)
+	{
+		ty_neighbour n = {squared_distance(l, i, found[m]), found[m]};
+
+		if (found[m] == i || (asking->asked > 0 && !is_nearer(asking->last, n)))
+			continue;
+		asking->heap[asking->count++] = n;
+		rise(asking->heap, asking->count);
+	}
 	return TY_OK;
 }
 
@@ -336,40 +361,64 @@ is_on_its_side(const ty_ladder *l, uint32_t i, ty_neighbour n)
 	return ty_may_join(l, i, n.number);
 }
 
+/* Asks the neighbours who are no farther than that, from the nearest on. Whether that is all that will be asked. */
+static bool
+ask(ty_ladder *l, uint32_t i, double within, uint32_t *nearest, bool *across)
+{
+	ty_asking *asking = &l->asking;
+
+	while (asking->count > 0 && asking->heap[0].squared <= within * within)
+	{
+		asking->last = take_nearest(asking);
+		*across = !is_on_its_side(l, i, asking->last);
+		if (asking->asked++ == 0 || !*across)
+			*nearest = asking->last.number;
+		if (!*across || asking->asked == ASKED)
+			return true;
+	}
+	return false;
+}
+
+/* Looks farther and farther around, for one who stands alone. */
+static ty_status
+ask_far_away(ty_ladder *l, uint32_t i, uint32_t *nearest, bool *across)
+{
+	const ty_disc *disc = &l->near.discs[i];
+	ty_status status = TY_OK;
+
+	for (double radius = TY_MOST_RINGS * l->homes.side; status == TY_OK; radius *= 2)
+	{
+		bool all;
+
+		status = ty_vicinity_find(&l->near, i, (ty_point){disc->x, disc->y}, radius);
+		all = l->near.found_count + 1 >= l->near.there || !(radius < INFINITY);
+		l->asking.count = 0;
+		if (status == TY_OK)
+			status = add_neighbours(l, i, l->near.found, l->near.found_count);
+		if (status == TY_OK && (ask(l, i, all ? INFINITY : radius, nearest, across) || all))
+			break;
+	}
+	return status;
+}
+
 /* The nearest that it may be joined to, of the ASKED nearest; if there is none, the very nearest. */
 ty_status
 ty_nearest_site(ty_ladder *l, uint32_t i, uint32_t *nearest, bool *across)
 {
 	const ty_disc *disc = &l->near.discs[i];
-	double radius = disc->radius;
-	ty_neighbour last = {0, TY_NO_SITE};
-	int asked = 0;
+	ty_point place = {disc->x, disc->y};
 
 	*nearest = TY_NO_SITE;
 	*across = true;
-	for (bool all = false; !all; radius *= 2)
+	l->asking.count = l->asking.asked = 0;
+	for (uint32_t ring = 0; ring < TY_MOST_RINGS; ring++)
 	{
-		ty_status status = ty_vicinity_find(&l->near, i, (ty_point){disc->x, disc->y}, radius);
-		size_t count;
+		ty_status status = ty_squares_ring(&l->homes, place, ring);
 
 		if (status == TY_OK)
-			status = gather_neighbours(l, i, last, &count);
-		if (status != TY_OK)
+			status = add_neighbours(l, i, l->homes.found, l->homes.found_count);
+		if (status != TY_OK || ask(l, i, ty_squares_within(&l->homes, place, ring), nearest, across))
 			return status;
-		all = l->near.found_count + 1 >= l->near.there || !(radius < INFINITY);
-		/* who is farther than the radius may not be the next one */
-		while (count > 0 && (all || l->neighbours[0].squared <= radius * radius))
-		{
-			last = l->neighbours[0];
-			l->neighbours[0] = l->neighbours[--count];
-			sink(l->neighbours, count, 0);
-			*nearest = *nearest == TY_NO_SITE ? last.number : *nearest;
-			*across = !is_on_its_side(l, i, last);
-			if (!*across)
-				*nearest = last.number;
-			if (!*across || ++asked == ASKED)
-				return TY_OK;
-		}
 	}
-	return TY_OK;
+	return ask_far_away(l, i, nearest, across);
 }
