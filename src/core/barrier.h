@@ -119,7 +119,7 @@ bool ty_barrier_lines_cross(const ty_barrier_lines *lines, ty_point a, ty_point 
 /* Segments of lines by number, to be looked at again and again. */
 typedef struct ty_segments
 {
-	uint32_t *number; /* [capacity], the first count from the nearest on, from the environment of the lines ... */
+	uint32_t *number; /* [2 * capacity], the first count from the nearest on, from the environment of the lines ... */
 	float *distance;  /* ... as these, which are never too far; the caller's to release */
 	size_t count, capacity;
 } ty_segments;

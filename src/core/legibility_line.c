@@ -159,12 +159,18 @@ look_at_segment(const ty_oblong *box, ty_point p, ty_point q, clearance *c)
 		note_way(c, corner.x - (p.x + along / squared * dx), corner.y - (p.y + along / squared * dy));
 }
 
-/* Whether the segment from a to b is farther than reach from the place, as far as boxes tell. */
+/* Whether the segment from a to b is farther than reach from where both are counted from. */
 static inline bool
-surely_beyond(ty_point place, double reach, ty_point a, ty_point b)
+is_beyond(double reach, ty_point a, ty_point b)
 {
-	return (a.x > place.x + reach && b.x > place.x + reach) || (a.x < place.x - reach && b.x < place.x - reach) ||
-		   (a.y > place.y + reach && b.y > place.y + reach) || (a.y < place.y - reach && b.y < place.y - reach);
+	double dx = b.x - a.x, dy = b.y - a.y, squared = dx * dx + dy * dy;
+	double along = -(a.x * dx + a.y * dy), across = a.x * dy - a.y * dx, limit = reach * reach;
+
+	if (along <= 0)
+		return a.x * a.x + a.y * a.y > limit;
+	if (along >= squared)
+		return b.x * b.x + b.y * b.y > limit;
+	return across * across > limit * squared;
 }
 
 /*
@@ -186,10 +192,11 @@ line_distance(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radiu
 		ty_point a, b;
 
 		ty_segment_ends(l->rules->lines, l->line_list[k], &a, &b);
-		if (surely_beyond(centre, reach, a, b))
+		a = (ty_point){a.x - centre.x, a.y - centre.y};
+		b = (ty_point){b.x - centre.x, b.y - centre.y};
+		if (is_beyond(reach, a, b))
 			continue;
-		look_at_segment(box, into_frame(box, a.x - centre.x, a.y - centre.y),
-						into_frame(box, b.x - centre.x, b.y - centre.y), &c);
+		look_at_segment(box, into_frame(box, a.x, a.y), into_frame(box, b.x, b.y), &c);
 		if (c.squared < before)
 		{
 			reach = (radius + sqrt(c.squared)) * (1 + 1e-6);
