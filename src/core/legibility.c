@@ -71,8 +71,8 @@ ty_place_box(ty_ladder *l, uint32_t i)
 					 0.5 * sides.length,
 					 0.5 * sides.width};
 
-	l->body[i] =
-		(ty_body){box, half_diagonal(sides), s->state == TY_DRAWN, s->fixed, (uint8_t) (s->size > 1 ? 2 : s->size > 0)};
+	l->body[i] = (ty_body){
+		box, half_diagonal(sides), s->state == TY_DRAWN, s->fixed, (uint8_t) (s->size > 1 ? 2 : s->size > 0), false};
 }
 
 void
@@ -85,6 +85,7 @@ ty_move_box(ty_ladder *l, uint32_t i)
 		ty_place_box(l, i);
 		return;
 	}
+	l->body[i].clear = false;
 	l->body[i].box.x = s->home.x - l->origin.x + s->moved.x;
 	l->body[i].box.y = s->home.y - l->origin.y + s->moved.y;
 }
@@ -253,10 +254,15 @@ collect_of_site(ty_ladder *l, uint32_t i)
 {
 	ty_status status = ty_find_near(l, i);
 	ty_point away;
-	double lack = status == TY_OK ? ty_line_lack(l, i, &away) : 0;
+	double lack = 0;
 
-	if (status == TY_OK && (ty_is_line_conflict(l, lack) || ty_is_across(l, i)))
-		status = note_conflict(l, i, i, lack);
+	if (status == TY_OK && !l->body[i].clear)
+	{
+		lack = ty_line_lack(l, i, &away);
+		l->body[i].clear = !ty_is_line_conflict(l, lack) && !ty_is_across(l, i);
+		if (!l->body[i].clear)
+			status = note_conflict(l, i, i, lack);
+	}
 	for (size_t m = 0; status == TY_OK && m < l->list_count; m++)
 	{
 		uint32_t j = l->list[m];
@@ -516,7 +522,10 @@ activate_all(ty_ladder *l)
 	ty_next_round(l);
 	for (size_t i = 0; i < l->n; i++)
 		if (l->sites[i].state == TY_DRAWN)
+		{
+			l->body[i].clear = false;
 			ty_activate(l, (uint32_t) i);
+		}
 	ty_next_round(l);
 }
 

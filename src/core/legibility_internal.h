@@ -38,6 +38,7 @@ typedef struct ty_body
 	double radius; /* half its diagonal */
 	bool drawn, fixed;
 	uint8_t stages; /* of shrinking that are left: 2 above its own size, 1 above the least, 0 */
+	bool clear;		/* is known to be near no line and across none, as it is now */
 } ty_body;
 
 typedef struct ty_ladder
@@ -142,7 +143,7 @@ bool ty_fixed_by_line(const ty_ladder *l, uint32_t i);
  */
 ty_status ty_meet_lines(ty_ladder *l, uint32_t i, double reach, double reach_by_line);
 ty_status ty_recall_lines(ty_ladder *l, uint32_t i);
-/* Lists in l->line_list the segments that come nearer to home than limit, without keeping the list. */
+/* Lists in l->line_list the segments that come nearer to home than limit, in no particular order, for once. */
 ty_status ty_list_lines(ty_ladder *l, uint32_t i, double limit);
 /* Whether a line lies between the site's home and a place, counted from the origin; or where it has come to lie. */
 bool ty_is_behind_line(const ty_ladder *l, uint32_t i, ty_point place);

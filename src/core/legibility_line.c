@@ -6,15 +6,21 @@
 #define ASKED \
 	12 /* so many of the nearest sites are asked whether a line lies between: who is farther is no neighbour */
 
-ty_status
-ty_list_lines(ty_ladder *l, uint32_t i, double limit)
+static void
+set_lines(ty_ladder *l, double limit)
 {
-	ty_status status = ty_barrier_lines_near(l->rules->lines, l->sites[i].home, limit, &l->segments);
-
 	l->line_count = l->segments.count;
 	l->line_list = l->segments.number;
 	l->line_distance = l->segments.distance;
 	l->line_limit = limit;
+}
+
+ty_status
+ty_list_lines(ty_ladder *l, uint32_t i, double limit)
+{
+	ty_status status = ty_barrier_lines_around(l->rules->lines, l->sites[i].home, limit, &l->segments);
+
+	set_lines(l, limit);
 	return status;
 }
 
@@ -25,11 +31,13 @@ ty_list_lines(ty_ladder *l, uint32_t i, double limit)
 static ty_status
 find_lines(ty_ladder *l, uint32_t i, double reach)
 {
-	ty_status status = ty_list_lines(l, i, reach + l->line_target);
+	double limit = reach + l->line_target;
+	ty_status status = ty_barrier_lines_near(l->rules->lines, l->sites[i].home, limit, &l->segments);
 	const uint32_t *list;
 
 	if (status != TY_OK)
 		return status;
+	set_lines(l, limit);
 	list = ty_lists_keep_with(&l->lines_of, i, l->segments.number, l->segments.distance, l->segments.count);
 	l->line_count = l->segments.count;
 	l->line_list = list == NULL ? l->segments.number : list + 1;
