@@ -119,13 +119,15 @@ bool ty_barrier_lines_cross(const ty_barrier_lines *lines, ty_point a, ty_point 
 /* Segments of lines by number, to be looked at again and again. */
 typedef struct ty_segments
 {
-	uint32_t *number; /* [capacity], the first count from the nearest on, from the environment of the lines ... */
+	uint32_t *number; /* [2 * capacity], the first count from the nearest on, from the environment of the lines ... */
 	float *distance;  /* ... as these, which are never too far; the caller's to release */
 	size_t count, capacity;
 } ty_segments;
 
 /* Lists those that come nearer to a place than limit. TY_TOO_MANY: they cannot be numbered. */
 ty_status ty_barrier_lines_near(const ty_barrier_lines *lines, ty_point p, double limit, ty_segments *near);
+/* The same in no particular order. */
+ty_status ty_barrier_lines_around(const ty_barrier_lines *lines, ty_point p, double limit, ty_segments *near);
 /* As ty_barrier_lines_cross, where no others can lie between. */
 bool ty_barrier_segments_cross(const ty_barrier_lines *lines, const uint32_t *segment, size_t count, ty_point a,
 							   ty_point b);

@@ -279,19 +279,20 @@ may_be_near(const void *context, const ty_box *box)
 	return ty_box_meets(&((const near_search *) context)->box, box);
 }
 
+/* Twice as much room as before; each array has as much again, for sorting. */
 static ty_status
 make_room(const ty_environment *env, ty_segments *near)
 {
 	size_t capacity = near->capacity == 0 ? FIRST_NEAR : 2 * near->capacity;
-	uint32_t *numbers = near->capacity == 0 ? ty_allocate_array(env, capacity, sizeof *numbers)
-											: ty_reallocate_array(env, near->number, capacity, sizeof *numbers);
+	uint32_t *numbers = near->capacity == 0 ? ty_allocate_array(env, 2 * capacity, sizeof *numbers)
+											: ty_reallocate_array(env, near->number, 2 * capacity, sizeof *numbers);
 	float *distances;
 
 	if (numbers == NULL)
 		return TY_NO_MEMORY;
 	near->number = numbers;
-	distances = near->capacity == 0 ? ty_allocate_array(env, capacity, sizeof *distances)
-									: ty_reallocate_array(env, near->distance, capacity, sizeof *distances);
+	distances = near->capacity == 0 ? ty_allocate_array(env, 2 * capacity, sizeof *distances)
+									: ty_reallocate_array(env, near->distance, 2 * capacity, sizeof *distances);
 	if (distances == NULL)
 		return TY_NO_MEMORY;
 	near->distance = distances;
@@ -299,24 +300,18 @@ make_room(const ty_environment *env, ty_segments *near)
 	return TY_OK;
 }
 
-/* Lists the segment behind those that are no farther. */
-static ty_status
-list_segment(const ty_environment *env, ty_segments *near, uint32_t number, double distance)
+/* The squared distance of p from the line from a to b, but for rounding. */
+static inline double
+squared_distance(ty_point a, ty_point b, ty_point p)
 {
-	float rounded = (float) (distance * (1 - 1e-6));
-	ty_status status = near->count == near->capacity ? make_room(env, near) : TY_OK;
-	size_t k = near->count;
+	double dx = b.x - a.x, dy = b.y - a.y, px = p.x - a.x, py = p.y - a.y, squared = dx * dx + dy * dy;
+	double along = px * dx + py * dy, across = px * dy - py * dx;
 
-	if (status != TY_OK)
-		return status;
-	for (near->count++; k > 0 && near->distance[k - 1] > rounded; k--)
-	{
-		near->number[k] = near->number[k - 1];
-		near->distance[k] = near->distance[k - 1];
-	}
-	near->number[k] = number;
-	near->distance[k] = rounded;
-	return TY_OK;
+	if (along <= 0)
+		return px * px + py * py;
+	if (along >= squared)
+		return (p.x - b.x) * (p.x - b.x) + (p.y - b.y) * (p.y - b.y);
+	return across / squared * across;
 }
 
 static bool
@@ -324,24 +319,82 @@ list_of_run(void *context, size_t thing)
 {
 	near_search *search = context;
 	const ty_barrier_run *run = &search->lines->runs[thing];
+	ty_segments *near = search->near;
 	ty_point last = ty_run_point(run, 0);
 
+	if (near->capacity - near->count < TY_RUN_POINTS)
+		search->status = make_room(search->lines->env, near);
 	for (uint32_t i = 1; i < run->points && search->status == TY_OK; i++)
 	{
 		ty_point next = ty_run_point(run, i);
+		double squared = squared_distance(last, next, search->place);
 
-		double distance = length(nearest_on_line(last, next, search->place), search->place);
-
-		if (distance < search->limit)
-			search->status = list_segment(search->lines->env, search->near,
-										  (uint32_t) thing * (TY_RUN_POINTS - 1) + i - 1, distance);
+		if (squared < search->limit * search->limit)
+		{
+			near->number[near->count] = (uint32_t) thing * (TY_RUN_POINTS - 1) + i - 1;
+			near->distance[near->count++] = (float) (sqrt(squared) * (1 - 1e-6));
+		}
 		last = next;
 	}
 	return search->status == TY_OK;
 }
 
+#define BANDS 32
+
+/* Which band of distances, of the same width each. */
+static inline uint32_t
+band_of(float distance, float bands_per_unit)
+{
+	float band = distance * bands_per_unit;
+
+	return band < BANDS - 1 ? (uint32_t) band : BANDS - 1;
+}
+
+/* Sorts what was listed into the second half of the arrays, band by band ... */
+static void
+sort_by_band(ty_segments *near, float limit)
+{
+	uint32_t first[BANDS + 1] = {0};
+	float bands_per_unit = limit > 0 && limit < INFINITY ? BANDS / limit : 0;
+	uint32_t *number = near->number + near->capacity;
+	float *distance = near->distance + near->capacity;
+
+	for (size_t k = 0; k < near->count; k++)
+		first[band_of(near->distance[k], bands_per_unit) + 1]++;
+	for (int band = 0; band < BANDS; band++)
+		first[band + 1] += first[band];
+	for (size_t k = 0; k < near->count; k++)
+	{
+		uint32_t to = first[band_of(near->distance[k], bands_per_unit)]++;
+
+		number[to] = near->number[k];
+		distance[to] = near->distance[k];
+	}
+}
+
+/* ... and from there back, where each goes behind those that are no farther. */
+static void
+sort_within_bands(ty_segments *near)
+{
+	const uint32_t *number = near->number + near->capacity;
+	const float *distance = near->distance + near->capacity;
+
+	for (size_t i = 0; i < near->count; i++)
+	{
+		size_t k = i;
+
+		for (; k > 0 && near->distance[k - 1] > distance[i]; k--)
+		{
+			near->number[k] = near->number[k - 1];
+			near->distance[k] = near->distance[k - 1];
+		}
+		near->number[k] = number[i];
+		near->distance[k] = distance[i];
+	}
+}
+
 ty_status
-ty_barrier_lines_near(const ty_barrier_lines *lines, ty_point p, double limit, ty_segments *near)
+ty_barrier_lines_around(const ty_barrier_lines *lines, ty_point p, double limit, ty_segments *near)
 {
 	const ty_point origin = lines->origin;
 	near_search search = {.lines = lines, .place = p, .limit = limit, .near = near, .status = TY_OK};
@@ -353,4 +406,17 @@ ty_barrier_lines_near(const ty_barrier_lines *lines, ty_point p, double limit, t
 		ty_box_of(p.x - limit - origin.x, p.y - limit - origin.y, p.x + limit - origin.x, p.y + limit - origin.y);
 	ty_boxes_search(&lines->boxes, may_be_near, list_of_run, &search);
 	return search.status;
+}
+
+ty_status
+ty_barrier_lines_near(const ty_barrier_lines *lines, ty_point p, double limit, ty_segments *near)
+{
+	ty_status status = ty_barrier_lines_around(lines, p, limit, near);
+
+	if (status == TY_OK && near->count > 1)
+	{
+		sort_by_band(near, (float) limit);
+		sort_within_bands(near);
+	}
+	return status;
 }

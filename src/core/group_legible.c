@@ -16,6 +16,13 @@
 #define NO_RANK UINT32_MAX
 #define AHEAD 8 /* so many placeholders later is a building needed that is called for now */
 
+/* Grid positions, each as often as it weighs; weights sum up to less than 2^62 (influence.h). */
+typedef struct ty_sum
+{
+	__int128 x, y;
+	int64_t weight;
+} ty_sum;
+
 typedef struct joining
 {
 	const ty_environment *env;
@@ -26,6 +33,7 @@ typedef struct joining
 	uint32_t *first;   /* [result->count] smallest rank */
 	uint32_t *next;	   /* [n] rank, by rank */
 	bool *handed;	   /* [result->count] has members from across a line */
+	ty_sum *sum;	   /* [result->count] of the members' places; of no weight: not summed up yet */
 	uint32_t *members; /* [n] scratch: buildings */
 } joining;
 
@@ -115,27 +123,51 @@ merge_lists(uint32_t *next, uint32_t a, uint32_t b)
 	return head;
 }
 
-/*
- * The exact mean of the members' grid positions, each as often as it weighs, halves up. Weights sum up to less than
- * 2^62 (influence.h).
- */
-static ty_position
-mean_position(const joining *j, size_t count)
+/* Sums up the members of a site, by rank, unless that has been done. */
+static void
+sum_up(const joining *j, uint32_t site)
 {
 	const ty_group *g = j->group;
-	__int128 x = 0, y = 0, n = 0;
+	ty_sum *sum = &j->sum[site];
 
-	for (size_t i = 0; i < count; i++)
+	if (sum->weight > 0)
+		return;
+	for (uint32_t rank = j->first[site]; rank != NO_RANK; rank = j->next[rank])
 	{
-		const ty_building *b = &g->buildings[j->members[i]];
-		ty_position at = ty_grid_snap(&g->grid, b->x, b->y);
-		int64_t weight = g->weight == NULL ? 1 : ty_weight(ty_group_importance(g, j->members[i]), g->weight_exponent);
+		uint32_t member = g->order[rank];
+		ty_position at = ty_grid_snap(&g->grid, g->buildings[member].x, g->buildings[member].y);
+		int64_t weight = g->weight == NULL ? 1 : ty_weight(ty_group_importance(g, member), g->weight_exponent);
 
-		x += (__int128) weight * at.x;
-		y += (__int128) weight * at.y;
-		n += weight;
+		sum->x += (__int128) weight * at.x;
+		sum->y += (__int128) weight * at.y;
+		sum->weight += weight;
 	}
-	return (ty_position){(int32_t) ((2 * x + n) / (2 * n)), (int32_t) ((2 * y + n) / (2 * n))};
+}
+
+/* the whole number nearest to the quotient of two others, of which the dividend is not negative; halves up */
+static int32_t
+rounded_quotient(__int128 dividend, int64_t divisor)
+{
+	__int128 twice = 2 * dividend + divisor;
+
+	/* mostly both fit into 64 bits, which are divided several times faster */
+	if (twice <= INT64_MAX && divisor <= INT64_MAX / 2)
+		return (int32_t) ((int64_t) twice / (2 * divisor));
+	return (int32_t) (twice / (2 * (__int128) divisor));
+}
+
+/* The exact mean of the places of the members of two sites, which are those of the first from now on. */
+static ty_position
+joint_position(const joining *j, uint32_t kept, uint32_t gone)
+{
+	ty_sum *sum = &j->sum[kept];
+
+	sum_up(j, kept);
+	sum_up(j, gone);
+	sum->x += j->sum[gone].x;
+	sum->y += j->sum[gone].y;
+	sum->weight += j->sum[gone].weight;
+	return (ty_position){rounded_quotient(sum->x, sum->weight), rounded_quotient(sum->y, sum->weight)};
 }
 
 /*
@@ -172,10 +204,12 @@ join(void *context, uint32_t kept, uint32_t gone, uint32_t in_place, ty_site *si
 	ty_placeholder *p = &j->result->placeholders[kept];
 	ty_point home = joint_home(j, kept, gone, in_place);
 	bool handed = in_place != TY_NO_SITE || j->handed[kept] || j->handed[gone];
+	ty_position position = joint_position(j, kept, gone);
 	uint32_t rank = merge_lists(j->next, j->first[kept], j->first[gone]);
 	ty_status status;
 
 	j->first[kept] = rank;
+	j->group->position[rank] = position;
 	p->first = p->count = 0;
 	for (uint32_t r = rank; r != NO_RANK; r = j->next[r])
 	{
@@ -183,7 +217,6 @@ join(void *context, uint32_t kept, uint32_t gone, uint32_t in_place, ty_site *si
 		__builtin_prefetch(&j->group->buildings[j->group->order[r]]);
 		j->members[p->count++] = j->group->order[r];
 	}
-	j->group->position[rank] = mean_position(j, p->count);
 	status = ty_describe(j->env, j->group, j->members, rank, p);
 	j->handed[kept] = handed;
 	if (handed && !p->kept)
@@ -293,9 +326,12 @@ prepare(joining *j, const uint32_t *label, size_t n)
 	j->first = ty_allocate_array(j->env, j->result->count, sizeof *j->first);
 	j->next = ty_allocate_array(j->env, n, sizeof *j->next);
 	j->handed = ty_allocate_array(j->env, j->result->count, sizeof *j->handed);
+	j->sum = ty_allocate_array(j->env, j->result->count, sizeof *j->sum);
 	j->members = ty_allocate_array(j->env, n, sizeof *j->members);
-	if (j->sites == NULL || j->first == NULL || j->next == NULL || j->members == NULL || j->handed == NULL)
+	if (j->sites == NULL || j->first == NULL || j->next == NULL || j->members == NULL || j->handed == NULL ||
+		j->sum == NULL)
 		return TY_NO_MEMORY;
+	memset(j->sum, 0, j->result->count * sizeof *j->sum);
 	memset(j->handed, 0, j->result->count * sizeof *j->handed);
 	memset(j->first, 0xff, j->result->count * sizeof *j->first);
 	for (size_t rank = n; rank-- > 0;)
@@ -339,5 +375,6 @@ ty_make_group_legible(const ty_environment *env, ty_group *g, uint32_t *label, s
 	ty_release(env, j.next);
 	ty_release(env, j.members);
 	ty_release(env, j.handed);
+	ty_release(env, j.sum);
 	return status;
 }

@@ -25,6 +25,7 @@
 #define ROUNDS_BELOW 1 /* the same below true size */
 #define NEAR_EACH 32   /* sites that are kept in mind; one in a town has 20 near it, of which 2 are in its way */
 #define LINES_EACH 80  /* two for a segment that is kept in mind; in a town with all its ways there are 20 in reach */
+#define SQUARE 2	   /* times as wide as what a site takes up: neighbours are mostly found in nine squares */
 #define SPARSE 64	   /* of so many sites one in a conflict is few */
 
 /* ---- sites ---- */
@@ -92,6 +93,7 @@ ty_move_box(ty_ladder *l, uint32_t i)
 		ty_place_box(l, i);
 		return;
 	}
+	l->body[i].clear = false;
 	l->body[i].box.x = p->home.x + p->moved.x;
 	l->body[i].box.y = p->home.y + p->moved.y;
 }
@@ -106,6 +108,13 @@ reach_of(const ty_ladder *l, uint32_t i)
 	return half_diagonal(s->full) + sqrt(s->shift.x * s->shift.x + s->shift.y * s->shift.y) + bound + 0.5 * l->target;
 }
 
+static void
+remove_home(ty_ladder *l, uint32_t i)
+{
+	if (l->homes.env != NULL && !(l->near.discs[i].radius < 0))
+		ty_squares_remove(&l->homes, i);
+}
+
 ty_status
 ty_enter_site(ty_ladder *l, uint32_t i)
 {
@@ -118,9 +127,19 @@ ty_enter_site(ty_ladder *l, uint32_t i)
 	l->by_line[i] = false;
 	reach = reach_of(l, i);
 	l->by_line[i] = true; /* which has a longer way, off the line */
-	status = ty_meet_lines(l, i, reach, reach_of(l, i));
+	status = l->unmet ? TY_OK : ty_meet_lines(l, i, reach, reach_of(l, i));
+	remove_home(l, i);
 	ty_vicinity_insert(&l->near, i, l->place[i].home, reach_of(l, i));
+	if (l->homes.env != NULL)
+		ty_squares_insert(&l->homes, i, l->place[i].home);
 	return status;
+}
+
+void
+ty_remove_site(ty_ladder *l, uint32_t i)
+{
+	remove_home(l, i);
+	ty_vicinity_remove(&l->near, i);
 }
 
 void
@@ -128,7 +147,7 @@ ty_hide_site(ty_ladder *l, uint32_t i)
 {
 	l->sites[i].state = TY_HIDDEN;
 	l->body[i].drawn = false;
-	ty_vicinity_remove(&l->near, i);
+	ty_remove_site(l, i);
 }
 
 /* What is known to be near others that the site may touch now is no longer all. */
@@ -155,8 +174,8 @@ ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t in_place, uint32_t 
 	ty_status status;
 
 	*kept = a < b ? a : b;
-	ty_vicinity_remove(&l->near, a);
-	ty_vicinity_remove(&l->near, b);
+	ty_remove_site(l, a);
+	ty_remove_site(l, b);
 	if (stays != TY_NO_SITE)
 	{
 		ty_leave_row(l, stays == a ? b : a);
@@ -179,7 +198,7 @@ ty_rehome_site(ty_ladder *l, uint32_t i, ty_point home)
 {
 	ty_status status;
 
-	ty_vicinity_remove(&l->near, i);
+	ty_remove_site(l, i);
 	l->sites[i].home = home;
 	l->place[i].moved = l->start[i] = ty_rest(&l->sites[i]);
 	l->sites[i].relaid = true;
@@ -243,10 +262,15 @@ collect_of_site(ty_ladder *l, uint32_t i)
 {
 	ty_status status = ty_find_near(l, i);
 	ty_point away;
-	double lack = status == TY_OK ? ty_line_lack(l, i, &away) : 0;
+	double lack = 0;
 
-	if (status == TY_OK && (ty_is_line_conflict(l, lack) || ty_is_across(l, i)))
-		status = note_conflict(l, i, i, lack);
+	if (status == TY_OK && !l->body[i].clear)
+	{
+		lack = ty_line_lack(l, i, &away);
+		l->body[i].clear = !ty_is_line_conflict(l, lack) && !ty_is_across(l, i);
+		if (!l->body[i].clear)
+			status = note_conflict(l, i, i, lack);
+	}
 	for (size_t m = 0; status == TY_OK && m < l->list_count; m++)
 	{
 		uint32_t j = l->list[m];
@@ -340,8 +364,10 @@ join_nearest(ty_ladder *l, uint32_t i, uint8_t *touched)
 {
 	uint32_t nearest, kept;
 	bool across;
-	ty_status status = ty_nearest_site(l, i, &nearest, &across);
+	ty_status status = l->by_line[i] ? ty_recall_lines(l, i) : TY_OK;
 
+	if (status == TY_OK)
+		status = ty_nearest_site(l, i, &nearest, &across);
 	if (status == TY_OK && nearest != TY_NO_SITE)
 	{
 		status = ty_join_sites(l, i, nearest, across ? nearest : TY_NO_SITE, &kept);
@@ -504,7 +530,10 @@ activate_all(ty_ladder *l)
 	ty_next_round(l);
 	for (size_t i = 0; i < l->n; i++)
 		if (l->sites[i].state == TY_DRAWN)
+		{
+			l->body[i].clear = false;
 			ty_activate(l, (uint32_t) i);
+		}
 	ty_next_round(l);
 }
 
@@ -567,6 +596,8 @@ run(ty_ladder *l)
 		memset(touched, 0, l->n * sizeof *touched);
 	if (status == TY_OK)
 		status = ty_thin_out(l);
+	if (status == TY_OK)
+		status = ty_thin_cells(l);
 	for (bool again = true, relented = false; status == TY_OK && again;)
 	{
 		activate_all(l);
@@ -634,6 +665,7 @@ static void
 free_ladder(ty_ladder *l)
 {
 	ty_vicinity_free(&l->near);
+	ty_squares_free(&l->homes);
 	ty_release(l->env, l->body_memory);
 	ty_release(l->env, l->place);
 	ty_release(l->env, l->start);
@@ -645,6 +677,7 @@ free_ladder(ty_ladder *l)
 	ty_lists_free(&l->lines_of);
 	ty_release(l->env, l->segments.number);
 	ty_release(l->env, l->segments.distance);
+	ty_release(l->env, l->asking.heap);
 	ty_release(l->env, l->next);
 	ty_release(l->env, l->listed);
 	ty_release(l->env, l->degree);
@@ -679,13 +712,32 @@ measure_sites(ty_ladder *l)
 	return isfinite(4 * (place + largest + l->target)) ? TY_OK : TY_NOT_FINITE;
 }
 
+/* of the sites that are drawn, as small as they may become */
+static double
+mean_length(const ty_ladder *l)
+{
+	double sum = 0;
+	size_t count = 0;
+
+	for (size_t i = 0; i < l->n; i++)
+		if (l->sites[i].state == TY_DRAWN)
+		{
+			sum += l->sites[i].least.length;
+			count++;
+		}
+	return sum / (double) count;
+}
+
 static ty_status
 enter_all(ty_ladder *l)
 {
 	ty_status status = measure_sites(l);
 
+	l->unmet = l->rules->lines != NULL && l->rules->join != NULL;
 	if (status == TY_OK)
 		status = ty_vicinity_begin(l->env, l->n, &l->near);
+	if (status == TY_OK && l->unmet)
+		status = ty_squares_begin(l->env, l->n, SQUARE * (mean_length(l) + l->target), &l->homes);
 	for (size_t i = 0; status == TY_OK && i < l->n; i++)
 	{
 		l->start[i] = l->place[i].moved = l->sites[i].moved;

@@ -5,6 +5,7 @@
 #include "legibility.h"
 #include "lists.h"
 #include "separation.h"
+#include "squares.h"
 #include "vicinity.h"
 
 /* Two sites that are too near to each other. */
@@ -13,6 +14,22 @@ typedef struct ty_conflict
 	uint32_t a, b; /* a < b; or the same: a site that is too near to a line */
 	double lack;
 } ty_conflict;
+
+/* A site as another one sees it. */
+typedef struct ty_neighbour
+{
+	double squared; /* distance from home to home */
+	uint32_t number;
+} ty_neighbour;
+
+/* Who of its neighbours a site may be joined to. */
+typedef struct ty_asking
+{
+	ty_neighbour *heap; /* [count] of those still to be asked, the nearest on top */
+	size_t count, capacity;
+	int asked;
+	ty_neighbour last; /* who was asked */
+} ty_asking;
 
 /* What of a site tells whether another is too near: no more than a cache line, since millions of pairs are looked at. */
 typedef struct ty_body
@@ -23,6 +40,7 @@ typedef struct ty_body
 	bool shifted;	/* its centre is not where its vertex is */
 	bool railed;	/* stays on the line of its row */
 	uint8_t stages; /* of shrinking that are left: 2 above its own size, 1 above the least, 0 */
+	bool clear;		/* is known to be near no line and across none, as it is now */
 } ty_body;
 
 /* Where a site belongs, from the ladder's origin, and how far from there it has been moved. */
@@ -42,14 +60,17 @@ typedef struct ty_ladder
 	double target;		/* that is made, a bit more, so that it is reached in finite time */
 	double line_target; /* the same for lines; 0: there are none */
 	double line_gap;
-	bool *by_line;		  /* [n] whether a line is in reach of the site */
-	ty_body *body;		  /* [n] where each is now: cache lines of ... */
-	void *body_memory;	  /* ... this, which begins a little before */
-	ty_place *place;	  /* [n] what pushing needs of the sites beside their bodies; theirs is stale until the end */
-	ty_point *start;	  /* [n] moved, as given */
-	double *start_size;	  /* [n] */
-	bool *frozen;		  /* [n] is back at its start and stays there */
-	ty_vicinity near;	  /* homes, with all that can be reached from there */
+	bool *by_line;		/* [n] whether a line is in reach of the site */
+	bool unmet;			/* lines are not looked for yet: all sites count as if one were in reach */
+	ty_body *body;		/* [n] where each is now: cache lines of ... */
+	void *body_memory;	/* ... this, which begins a little before */
+	ty_place *place;	/* [n] what pushing needs of the sites beside their bodies; theirs is stale until the end */
+	ty_point *start;	/* [n] moved, as given */
+	double *start_size; /* [n] */
+	bool *frozen;		/* [n] is back at its start and stays there */
+	ty_vicinity near;	/* homes, with all that can be reached from there */
+	ty_squares homes;	/* with lines: of those in the vicinity; else none */
+	ty_asking asking;
 	ty_lists near_of;	  /* by site: who stands near, if that is known */
 	ty_lists lines_of;	  /* by site: which segments of lines are in reach (barrier.h), if that is known */
 	ty_segments segments; /* those last found */
@@ -58,8 +79,9 @@ typedef struct ty_ladder
 	const uint32_t *line_list;	/* [line_count] segments in reach of the same site, where it is by_line */
 	const float *line_distance; /* ... from the nearest to its home on */
 	size_t line_count;
-	uint32_t *active; /* [active_count] sites that may be in a conflict: at least one of the two of each */
-	uint32_t *next;	  /* those of the next round */
+	double line_limit; /* there are no others as near to its home as this */
+	uint32_t *active;  /* [active_count] sites that may be in a conflict: at least one of the two of each */
+	uint32_t *next;	   /* those of the next round */
 	size_t active_count, next_count;
 	bool *listed;			/* [n] stands in next */
 	uint32_t *degree;		/* [n] in how many conflicts it is, while some are being resolved */
@@ -106,8 +128,9 @@ ty_free_way(const ty_ladder *l, uint32_t i)
 void ty_place_box(ty_ladder *l, uint32_t i);
 /* The same where its size is what it was. */
 void ty_move_box(ty_ladder *l, uint32_t i);
-/* The site enters the vicinity, or leaves it for good. */
+/* The site enters the vicinity, leaves it, or leaves it for good. */
 ty_status ty_enter_site(ty_ladder *l, uint32_t i);
+void ty_remove_site(ty_ladder *l, uint32_t i);
 void ty_hide_site(ty_ladder *l, uint32_t i);
 /* Joins two sites; which of the numbers goes on. in_place: as for the rules' join. */
 ty_status ty_join_sites(ty_ladder *l, uint32_t a, uint32_t b, uint32_t in_place, uint32_t *kept);
@@ -118,6 +141,8 @@ bool ty_may_join(const ty_ladder *l, uint32_t a, uint32_t b);
  * across one.
  */
 double ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away);
+/* The same for it as the box, whose half diagonal is the radius. */
+double ty_box_line_lack(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radius, ty_point *away);
 bool ty_is_line_conflict(const ty_ladder *l, double lack);
 /* Whether a fixed site, which does not yield, is too near to a line. */
 bool ty_fixed_by_line(const ty_ladder *l, uint32_t i);
@@ -127,6 +152,10 @@ bool ty_fixed_by_line(const ty_ladder *l, uint32_t i);
  */
 ty_status ty_meet_lines(ty_ladder *l, uint32_t i, double reach, double reach_by_line);
 ty_status ty_recall_lines(ty_ladder *l, uint32_t i);
+/* Lists in l->line_list the segments that come nearer to home than limit, in no particular order, for once. */
+ty_status ty_list_lines(ty_ladder *l, uint32_t i, double limit);
+/* Whether a line lies between the site's home and a place, counted from the origin; or where it has come to lie. */
+bool ty_is_behind_line(const ty_ladder *l, uint32_t i, ty_point place);
 /* Whether the site has come to lie on the other side of a line. */
 bool ty_is_across(const ty_ladder *l, uint32_t i);
 /* The nearest that is drawn: of those that it may be joined to or, if there is none near, of all. */
@@ -190,6 +219,8 @@ ty_play(const ty_ladder *l, const ty_site *s)
 
 /* legibility_thin.c: joins or hides where so many sites crowd that nothing else can help. */
 ty_status ty_thin_out(ty_ladder *l);
+/* legibility_cell.c: joins what finds no room between lines; all sites meet theirs. */
+ty_status ty_thin_cells(ty_ladder *l);
 /* legibility_settle.c: rounds of shrinking and displacing; below: also below true size. */
 ty_status ty_settle(ty_ladder *l, int rounds, bool below);
 /* legibility_settle.c: the site comes back where it stands farther from home than it may at its present size. */

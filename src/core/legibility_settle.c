@@ -191,7 +191,7 @@ settle_by_line(ty_ladder *l, uint32_t i, bool below)
 	ty_point n;
 	double lack;
 
-	if (!l->by_line[i] || l->frozen[i])
+	if (!l->by_line[i] || l->frozen[i] || l->body[i].clear)
 		return;
 	if (ty_is_across(l, i))
 	{
@@ -201,7 +201,10 @@ settle_by_line(ty_ladder *l, uint32_t i, bool below)
 	}
 	lack = ty_line_lack(l, i, &n);
 	if (!ty_is_line_conflict(l, lack))
+	{
+		l->body[i].clear = true;
 		return;
+	}
 	l->lacking += lack;
 	for (int stage = 1; stage >= (below ? 0 : 1); stage--)
 		for (int step = 0; step < SHRINK_STEPS && lack > 0 && growth(l, i, stage) > 0; step++)

@@ -6,6 +6,7 @@
 #include "check.h"
 #include "lists.h"
 #include "random.h"
+#include "squares.h"
 #include "vicinity.h"
 
 #include <math.h>
@@ -107,6 +108,65 @@ as_if_every_disc_were_tried(void)
 		ty_vicinity_fit(&v);
 		check_all(&v, all, n, &r);
 		ty_vicinity_free(&v);
+	}
+}
+
+/* Rings around a place: each who is there once, and nobody missed who is nearer than it is said. */
+static void
+check_rings(ty_squares *s, const plain_disc *all, size_t n, ty_point place)
+{
+	int seen[MOST] = {0};
+
+	for (uint32_t ring = 0; ring < TY_MOST_RINGS; ring++)
+	{
+		double within = ty_squares_within(s, place, ring);
+
+		NEED(ty_squares_ring(s, place, ring) == TY_OK, "ring %u", ring);
+		for (size_t k = 0; k < s->found_count; k++)
+			seen[s->found[k]]++;
+		CHECK(within >= ring * s->side * 0.999, "ring %u: within %g", ring, within);
+		for (size_t i = 0; i < n; i++)
+		{
+			double distance = hypot(all[i].x - place.x, all[i].y - place.y);
+
+			CHECK(seen[i] <= (all[i].radius >= 0), "ring %u: %zu is found %d times", ring, i, seen[i]);
+			CHECK(seen[i] == 1 || all[i].radius < 0 || distance > within, "ring %u: %zu is missed at %g", ring, i,
+				  distance);
+		}
+	}
+}
+
+static void
+rings_of_squares_leave_nobody_out(void)
+{
+	random_state r = random_seed(14);
+
+	for (int set = 0; set < 60 && check_failures < CHECK_SHOWN; set++)
+	{
+		size_t n = (size_t) random_between(&r, 1, MOST);
+		double side = 2 + 60 * random_unit(&r), base = set % 2 == 0 ? 0 : -7e6;
+		plain_disc all[MOST];
+		ty_squares s;
+
+		NEED(ty_squares_begin(&ty_plain_environment, n, side, &s) == TY_OK, "set %d", set);
+		for (uint32_t i = 0; i < n; i++)
+			all[i] = (plain_disc){0, 0, -1};
+		for (size_t change = 0; change < 3 * n; change++)
+		{
+			uint32_t i = (uint32_t) random_between(&r, 0, (int64_t) n - 1);
+
+			if (all[i].radius >= 0)
+				ty_squares_remove(&s, i);
+			all[i] = random_disc(&r);
+			all[i].x += base;
+			if (change % 3 == 0)
+				all[i].radius = -1;
+			else
+				ty_squares_insert(&s, i, (ty_point){all[i].x, all[i].y});
+		}
+		for (int t = 0; t < 20; t++)
+			check_rings(&s, all, n, (ty_point){base + 1000 * random_unit(&r), 1000 * random_unit(&r)});
+		ty_squares_free(&s);
 	}
 }
 
@@ -212,6 +272,7 @@ main(int argc, char **argv)
 {
 	check_begin(argc, argv);
 	RUN(as_if_every_disc_were_tried);
+	RUN(rings_of_squares_leave_nobody_out);
 	RUN(a_list_is_what_was_kept_last_or_none);
 	RUN(segments_near_a_place_are_listed);
 	return check_end();

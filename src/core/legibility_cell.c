@@ -1,0 +1,309 @@
+/*
+ * legibility_cell.c - first of all, sites that find no room between lines are joined, without any pushing.
+ *
+ * On a map of a town with all its streets the symbols of lines leave room to every tenth site or so. What has none as
+ * small as it may become, wherever it may go, need not be pushed about in rounds: it becomes one with the nearest in its
+ * cell between the lines, as often as it takes for that one to have room; where nobody else is left in the cell, the
+ * members go to the nearest across. So rounds begin with a quarter of the sites; they took six times as long with all.
+ *
+ * Whether there is room is found out by a walk away from the lines, first of the disc in the site, among segments in
+ * single precision: three quarters come no farther. Nothing that is promised hangs on it.
+ */
+#include "legibility_internal.h"
+
+#include <float.h>
+#include <math.h>
+
+#define STEPS 16	  /* that are walked to find room; half as many save no time and lose 1 % of the sites */
+#define STAGNANT 0.97 /* share of what was lacking two steps before, above which a walk leads nowhere */
+#define TURNS_BACK 3  /* of half the way, where a step has led across a line */
+
+/* What is lacking gets less from step to step, or at least from two steps to the next two. */
+typedef struct progress
+{
+	double last, before;
+} progress;
+
+static inline bool
+is_stagnant(progress *p, double lack)
+{
+	bool stagnant = lack > STAGNANT * p->before;
+
+	p->before = p->last;
+	p->last = lack;
+	return stagnant;
+}
+
+/* The share of the way from home that does not lead beyond the bound. */
+static inline double
+share_within(ty_point way, double bound)
+{
+	double squared = way.x * way.x + way.y * way.y;
+
+	return squared > bound * bound ? bound / sqrt(squared) : 1;
+}
+
+/* ---- the disc ---- */
+
+/* Segments near a home, counted from there: from (x, y) by (dx, dy). */
+typedef struct surroundings
+{
+	size_t count, capacity;
+	float *x, *y, *dx, *dy;
+	float *inverse; /* of the squared length; 0 where there is none */
+	float *squared; /* distance from a place */
+} surroundings;
+
+static ty_status
+make_room(const ty_environment *env, surroundings *s, size_t count)
+{
+	size_t capacity = 2 * count;
+
+	if (count <= s->capacity)
+		return TY_OK;
+	ty_release(env, s->x);
+	*s = (surroundings){.x = ty_allocate_array(env, 6 * capacity, sizeof *s->x)};
+	if (s->x == NULL)
+		return TY_NO_MEMORY;
+	s->capacity = capacity;
+	s->y = s->x + capacity;
+	s->dx = s->y + capacity;
+	s->dy = s->dx + capacity;
+	s->inverse = s->dy + capacity;
+	s->squared = s->inverse + capacity;
+	return TY_OK;
+}
+
+/* The segments that have been listed. */
+static ty_status
+survey(ty_ladder *l, uint32_t i, surroundings *s)
+{
+	const ty_point home = l->sites[i].home;
+	ty_status status = make_room(l->env, s, l->line_count);
+
+	s->count = 0;
+	for (size_t k = 0; status == TY_OK && k < l->line_count; k++)
+	{
+		ty_point a, b;
+		float squared;
+
+		ty_segment_ends(l->rules->lines, l->line_list[k], &a, &b);
+		s->x[k] = (float) (a.x - home.x);
+		s->y[k] = (float) (a.y - home.y);
+		s->dx[k] = (float) (b.x - a.x);
+		s->dy[k] = (float) (b.y - a.y);
+		squared = s->dx[k] * s->dx[k] + s->dy[k] * s->dy[k];
+		s->inverse[k] = squared >= FLT_MIN ? 1 / squared : 0;
+		s->count++;
+	}
+	return status;
+}
+
+/* the vector from the place to the nearest point of a segment */
+static inline float
+way_to_segment(const surroundings *s, size_t k, float x, float y, float *way_y)
+{
+	float from_x = s->x[k] - x, from_y = s->y[k] - y;
+	float share = -(from_x * s->dx[k] + from_y * s->dy[k]) * s->inverse[k];
+
+	share = share > 0 ? share : 0;
+	share = share < 1 ? share : 1;
+	*way_y = from_y + share * s->dy[k];
+	return from_x + share * s->dx[k];
+}
+
+/* How near the nearest segment comes to the place, and the unit vector away from there. */
+static double
+nearest_segment(const surroundings *s, ty_point place, ty_point *away)
+{
+	float x = (float) place.x, y = (float) place.y, least = INFINITY;
+	size_t nearest = 0;
+	ty_point way;
+	float way_y;
+	double distance;
+
+	for (size_t k = 0; k < s->count; k++)
+	{
+		float way_x = way_to_segment(s, k, x, y, &way_y);
+
+		s->squared[k] = way_x * way_x + way_y * way_y;
+	}
+	for (size_t k = 0; k < s->count; k++)
+		if (s->squared[k] < least)
+		{
+			least = s->squared[k];
+			nearest = k;
+		}
+	if (!(least < INFINITY))
+		return INFINITY;
+	way.x = -way_to_segment(s, nearest, x, y, &way_y);
+	way.y = -way_y;
+	distance = sqrt(way.x * way.x + way.y * way.y);
+	if (distance > 0)
+		*away = (ty_point){way.x / distance, way.y / distance};
+	return distance;
+}
+
+/* Whether a segment lies between home and the place. */
+static bool
+is_behind(const surroundings *s, ty_point place)
+{
+	float x = (float) place.x, y = (float) place.y;
+	int crossed = 0;
+
+	for (size_t k = 0; k < s->count; k++)
+	{
+		float home_side = s->y[k] * s->dx[k] - s->x[k] * s->dy[k], way = x * s->dy[k] - y * s->dx[k];
+		float side = home_side + way, from = x * s->y[k] - y * s->x[k], to = from + (x * s->dy[k] - y * s->dx[k]);
+
+		crossed |= ((home_side > 0) != (side > 0)) & ((from > 0) != (to > 0));
+	}
+	return crossed != 0;
+}
+
+/* Whether the disc that is as wide as the site, as small as it may become, comes to a place with room for it. */
+static bool
+disc_finds_room(const ty_ladder *l, uint32_t i, const surroundings *s, ty_point from, double bound)
+{
+	double radius = 0.5 * l->sites[i].least.width;
+	progress p = {INFINITY, INFINITY};
+	ty_point place = from, away = {1, 0};
+
+	for (int steps = 0; steps < STEPS; steps++)
+	{
+		double lack = radius + l->line_target - nearest_segment(s, place, &away), share;
+		ty_point way;
+
+		if (!ty_is_line_conflict(l, lack) && !is_behind(s, place))
+			return true;
+		if (is_stagnant(&p, lack))
+			return false;
+		way = (ty_point){place.x + lack * away.x - from.x, place.y + lack * away.y - from.y};
+		share = share_within(way, bound);
+		for (int turn = 0; turn <= TURNS_BACK; turn++, share *= 0.5)
+		{
+			place = (ty_point){from.x + share * way.x, from.y + share * way.y};
+			if (!is_behind(s, place))
+				break;
+		}
+	}
+	return false;
+}
+
+/* ---- the rectangle ---- */
+
+/* Whether the site, whose lines are listed, comes to a place that is far enough from all of them. */
+static bool
+finds_room(const ty_ladder *l, uint32_t i, ty_point from, double bound)
+{
+	const ty_site *s = &l->sites[i];
+	ty_oblong box = {from.x, from.y, s->ux, s->uy, 0.5 * s->least.length, 0.5 * s->least.width};
+	double radius = sqrt(box.half_length * box.half_length + box.half_width * box.half_width);
+	progress p = {INFINITY, INFINITY};
+
+	for (int steps = 0; steps < STEPS; steps++)
+	{
+		ty_point away, way;
+		double lack = ty_box_line_lack(l, i, &box, radius, &away), share;
+
+		if (!ty_is_line_conflict(l, lack) && !ty_is_behind_line(l, i, (ty_point){box.x, box.y}))
+			return true;
+		if (is_stagnant(&p, lack))
+			return false;
+		way = (ty_point){box.x + lack * away.x - from.x, box.y + lack * away.y - from.y};
+		share = share_within(way, bound);
+		for (int turn = 0; turn <= TURNS_BACK; turn++, share *= 0.5)
+		{
+			box.x = from.x + share * way.x;
+			box.y = from.y + share * way.y;
+			if (!ty_is_behind_line(l, i, (ty_point){box.x, box.y}))
+				break;
+		}
+	}
+	return false;
+}
+
+/* ---- sites ---- */
+
+/* The site meets the lines that it will be kept away from. */
+static ty_status
+meet_lines(ty_ladder *l, uint32_t i)
+{
+	ty_status status;
+
+	l->unmet = false;
+	status = ty_enter_site(l, i);
+	l->unmet = true;
+	return status;
+}
+
+/* Finds out whether the site has room, and so meets its lines; if it has none they stay listed. */
+static ty_status
+look_for_room(ty_ladder *l, uint32_t i, surroundings *around, bool *room)
+{
+	const ty_site *s = &l->sites[i];
+	double factor = s->full.length > 0 ? s->least.length / s->full.length : 1;
+	ty_point shift = {factor * s->shift.x, factor * s->shift.y},
+			 home = {s->home.x - l->origin.x, s->home.y - l->origin.y};
+	double bound = fmax(ty_free_way(l, i), 0.5 * s->least.length);
+	double beside = 2 * sqrt(shift.x * shift.x + shift.y * shift.y);
+	ty_status status;
+
+	*room = s->fixed || ty_in_row(l, i) || ty_on_rail(s);
+	if (*room)
+		return meet_lines(l, i);
+	status = ty_list_lines(l, i, bound + beside + 0.5 * s->least.width + l->line_target);
+	if (status == TY_OK)
+		status = survey(l, i, around);
+	if (status != TY_OK || !disc_finds_room(l, i, around, shift, bound))
+		return status;
+	status = meet_lines(l, i);
+	*room =
+		status == TY_OK && (!l->by_line[i] || finds_room(l, i, (ty_point){home.x + shift.x, home.y + shift.y}, bound));
+	return status;
+}
+
+/* Joins the site, which has no room, to the nearest. *kept: what is to be looked at next; TY_NO_SITE: nothing. */
+static ty_status
+give_up(ty_ladder *l, uint32_t i, uint32_t *kept)
+{
+	uint32_t nearest;
+	bool across;
+	ty_status status = ty_nearest_site(l, i, &nearest, &across);
+
+	*kept = TY_NO_SITE;
+	if (status == TY_OK && nearest == TY_NO_SITE)
+		ty_hide_site(l, i);
+	else if (status == TY_OK)
+		status = ty_join_sites(l, i, nearest, across ? nearest : TY_NO_SITE, kept);
+	return status;
+}
+
+ty_status
+ty_thin_cells(ty_ladder *l)
+{
+	surroundings around = {0};
+	ty_status status = TY_OK;
+
+	if (!l->unmet)
+		return TY_OK;
+	for (uint32_t number = 0; status == TY_OK && number < l->n; number++)
+	{
+		uint32_t i = ty_is_drawn(l, number) ? number : TY_NO_SITE;
+		bool room = false;
+
+		if (ty_interrupted_at(l->env, number))
+			status = TY_INTERRUPTED;
+		/* the site, and what it becomes by being joined, until that has room */
+		while (status == TY_OK && i != TY_NO_SITE && !room)
+		{
+			status = look_for_room(l, i, &around, &room);
+			if (status == TY_OK && !room)
+				status = give_up(l, i, &i);
+		}
+	}
+	l->unmet = false;
+	ty_release(l->env, around.x);
+	ty_vicinity_fit(&l->near);
+	return status;
+}
