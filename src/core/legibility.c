@@ -52,10 +52,17 @@ half_diagonal(ty_sides sides)
 	return 0.5 * sqrt(sides.width * sides.width + sides.length * sides.length);
 }
 
+/* how much of its shift a site of this length has */
+static double
+share_of_shift(const ty_site *s, double length)
+{
+	return s->size >= 2 || !(s->full.length > 0) ? 1 : length / s->full.length;
+}
+
 ty_point
 ty_site_centre(const ty_site *s)
 {
-	double factor = s->size >= 2 || !(s->full.length > 0) ? 1 : ty_site_sides(s).length / s->full.length;
+	double factor = share_of_shift(s, ty_site_sides(s).length);
 
 	return (ty_point){s->home.x + s->moved.x + factor * s->shift.x, s->home.y + s->moved.y + factor * s->shift.y};
 }
@@ -65,7 +72,8 @@ ty_place_box(ty_ladder *l, uint32_t i)
 {
 	const ty_site *s = &l->sites[i];
 	ty_sides sides = ty_site_sides(s);
-	double factor = s->size >= 2 || !(s->full.length > 0) ? 1 : sides.length / s->full.length;
+	bool shifted = s->shift.x != 0 || s->shift.y != 0;
+	double factor = shifted ? share_of_shift(s, sides.length) : 0;
 	const ty_place *p = &l->place[i];
 	ty_oblong box = {p->home.x + p->moved.x + factor * s->shift.x,
 					 p->home.y + p->moved.y + factor * s->shift.y,
@@ -78,7 +86,7 @@ ty_place_box(ty_ladder *l, uint32_t i)
 						   .radius = half_diagonal(sides),
 						   .drawn = s->state == TY_DRAWN,
 						   .fixed = s->fixed,
-						   .shifted = s->shift.x != 0 || s->shift.y != 0,
+						   .shifted = shifted,
 						   .railed = ty_on_rail(s),
 						   .stages = (uint8_t) (s->size > 1 ? 2 : s->size > 0)};
 }
