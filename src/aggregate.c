@@ -15,7 +15,6 @@
 #include "call.h"
 #include "core/grid.h"
 #include "core/group.h"
-#include "core/mesh.h"
 #include "geometry.h"
 #include "hierarchy.h"
 #include "layer.h"
@@ -63,6 +62,21 @@ aggregate_context(FunctionCallInfo fcinfo)
 	return context;
 }
 
+/* NULL of SQL for none. */
+static Datum
+state_datum(FunctionCallInfo fcinfo, ty_state *s)
+{
+	fcinfo->isnull = s == NULL;
+	return PointerGetDatum(s);
+}
+
+/* The state that a support function's argument is, or NULL. */
+static ty_state *
+state_argument(FunctionCallInfo fcinfo, int argument)
+{
+	return PG_ARGISNULL(argument) ? NULL : (ty_state *) PG_GETARG_POINTER(argument);
+}
+
 /* of the row; 1 where it is NULL or the aggregate takes none */
 static double
 row_importance(FunctionCallInfo fcinfo, int argument)
@@ -77,38 +91,67 @@ row_importance(FunctionCallInfo fcinfo, int argument)
 	return importance;
 }
 
+/* The pool of the row, which mostly is the one of the row before. */
+static ty_pool *
+pool_for_row(ty_call *call, MemoryContext context, const ty_state *s)
+{
+	if (unlikely(call->pools.current == NULL || call->pools.current->context != context))
+	{
+		if (s == NULL)
+			return ty_pool_of(&call->pools, context);
+		call->pools.current = s->pool;
+	}
+	return call->pools.current;
+}
+
+/* What the group of a row is typified with that is its first. */
+static ty_variant *
+variant_for_row(ty_call *call, ty_pool *pool, const ty_parameters *parameters, int32 srid)
+{
+	ty_variant *last = pool->variants;
+	ty_variant variant;
+
+	if (last != NULL && last->generation == call->generation && last->srid == srid &&
+		last->barriers == call->barriers.current)
+		return last;
+	variant = (ty_variant){.generation = call->generation,
+						   .srid = srid,
+						   .geometry_type = call->srids.geometry_type,
+						   .barriers = call->barriers.current,
+						   .metres_per_unit = ty_check_srid(&call->srids, srid),
+						   .parameters = *parameters};
+	ty_check_barrier_srid(variant.barriers, srid);
+	return ty_variant_like(pool, &variant);
+}
+
 /* The state of the row's group, with the row's parameters and SRID checked against it. */
 static ty_state *
-state_for_row(FunctionCallInfo fcinfo, MemoryContext context, const row_layout *layout, int32 srid)
+state_for_row(ty_call *call, ty_pool *pool, ty_state *s, const NullableDatum *arguments, int32 srid)
 {
-	ty_state *s = PG_ARGISNULL(0) ? NULL : (ty_state *) PG_GETARG_POINTER(0);
-	ty_call *call = ty_call_of(fcinfo, layout->parameters, layout->parameter_count, 1, !layout->without_scale);
 	const ty_parameters *parameters;
 
-	call->group_context = context;
-	parameters = ty_call_parameters(call, &fcinfo->args[layout->parameters], s == NULL);
+	call->group_context = pool->context;
+	parameters = ty_call_parameters(call, arguments, s == NULL);
 	if (s == NULL)
-	{
-		s = ty_state_new(context, parameters, srid, ty_check_srid(&call->srids, srid), call->srids.geometry_type);
-		s->barriers = call->barriers.current;
-		ty_check_barrier_srid(s->barriers, srid);
-	}
-	else if (unlikely(s->generation != call->generation) && !ty_same_parameters(&s->parameters, parameters))
+		return ty_state_new(pool, variant_for_row(call, pool, parameters, srid));
+	if (unlikely(s->variant->generation != call->generation) &&
+		!ty_same_parameters(&s->variant->parameters, parameters))
 		ty_refuse_varying_parameters();
-	s->generation = call->generation;
+	s->variant->generation = call->generation;
 	ty_state_check_srid(s, srid);
 	return s;
 }
 
-/* The last building's outline, with which its placeholder may be drawn. */
+/* The outline of the building added last, with which its placeholder may be drawn. */
 static void
-add_outline(ty_state *s, Datum geometry, double importance)
+add_outline(ty_pool *pool, const ty_variant *v, Datum geometry, double importance)
 {
-	ty_outline *outline = ty_outline_to_draw(geometry, &s->buildings[s->count - 1], importance, &s->parameters,
-											 s->metres_per_unit, s->geometry_type);
+	size_t last = pool->count - 1;
+	ty_outline *outline = ty_outline_to_draw(geometry, &pool->buildings[last], importance, &v->parameters,
+											 v->metres_per_unit, v->geometry_type);
 
 	if (outline != NULL)
-		ty_state_give_outline(s, outline);
+		ty_pool_set_outline(pool, last, ty_copy_outline(outline, pool->context));
 }
 
 /* Adds the row's building; a row without geometry is passed over, and nothing else of it looked at. */
@@ -116,29 +159,31 @@ static Datum
 add_row(FunctionCallInfo fcinfo, const row_layout *layout)
 {
 	MemoryContext context = aggregate_context(fcinfo);
-	ty_building building;
+	ty_call *call = ty_call_of(fcinfo, layout->parameters, layout->parameter_count, 1, !layout->without_scale);
+	ty_state *s = state_argument(fcinfo, 0);
+	ty_pool *pool;
+	ty_building *building;
 	double importance;
 	int32 srid;
-	ty_state *s;
 
-	/* the state of a small group is far away in memory: it comes while the building is measured */
-	__builtin_prefetch(DatumGetPointer(PG_GETARG_DATUM(0)), 1);
-	if (PG_ARGISNULL(1) || !ty_measure_datum(PG_GETARG_DATUM(1), &building, &srid, NULL))
-	{
-		if (PG_ARGISNULL(0))
-			PG_RETURN_NULL();
-		PG_RETURN_DATUM(PG_GETARG_DATUM(0));
-	}
-	s = state_for_row(fcinfo, context, layout, srid);
+	/* one of many states is far away in memory: it comes while the building is measured */
+	__builtin_prefetch(s, 1);
+	if (PG_ARGISNULL(1))
+		return state_datum(fcinfo, s);
+	pool = pool_for_row(call, context, s);
+	building = ty_pool_next(pool);
+	if (!ty_measure_datum(PG_GETARG_DATUM(1), building, &srid, NULL))
+		return state_datum(fcinfo, s);
+	s = state_for_row(call, pool, s, &fcinfo->args[layout->parameters], srid);
 	if (layout->id != 0 && PG_ARGISNULL(layout->id))
 		ty_refuse_null("id");
-	building.id = layout->id != 0 ? PG_GETARG_INT64(layout->id) : 0;
+	building->id = layout->id != 0 ? PG_GETARG_INT64(layout->id) : 0;
 	importance = row_importance(fcinfo, layout->importance);
-	ty_state_add(s, &building);
+	ty_state_add(s);
 	if (unlikely(importance != 1))
-		ty_state_set_importance(s, importance);
-	if (unlikely(ty_wants_outline(&s->parameters)))
-		add_outline(s, PG_GETARG_DATUM(1), importance);
+		ty_pool_set_importance(pool, pool->count - 1, importance);
+	if (unlikely(ty_wants_outline(&s->variant->parameters)))
+		add_outline(pool, s->variant, PG_GETARG_DATUM(1), importance);
 	PG_RETURN_POINTER(s);
 }
 
@@ -169,40 +214,40 @@ warn_of_result(const ty_result *result)
 }
 
 static ty_input
-input_of(const ty_state *s)
+input_of(const ty_gathered *g)
 {
-	return (ty_input){.buildings = s->buildings,
-					  .n = s->count,
-					  .importance = s->importance,
-					  .outlines = s->outlines,
-					  .barriers = ty_lines_of_barriers(s->barriers)};
+	return (ty_input){.buildings = g->buildings,
+					  .n = g->count,
+					  .importance = g->importance,
+					  .outlines = g->outlines,
+					  .barriers = ty_lines_of_barriers(g->variant->barriers)};
 }
 
 /* Typifies the group; the result is of the current context. The state stays as it is. */
 static void
-state_typify_quietly(const ty_state *s, ty_result *result)
+typify_quietly(const ty_gathered *g, ty_result *result)
 {
-	ty_input input = input_of(s);
-	ty_parameters parameters = s->parameters;
+	ty_input input = input_of(g);
+	ty_parameters parameters = g->variant->parameters;
 
-	ty_bring_to_ground(&parameters, s->metres_per_unit);
+	ty_bring_to_ground(&parameters, g->variant->metres_per_unit);
 	ty_typify_group(&input, &parameters, result);
-	if (s->outlines != NULL)
-		ty_check_outlines(result, s->outlines, s->geometry_type);
-	if (s->count >= LARGE_GROUP)
+	if (g->outlines != NULL)
+		ty_check_outlines(result, g->outlines, g->variant->geometry_type);
+	if (g->count >= LARGE_GROUP)
 		ty_trim_memory();
 	warn_of_result(result);
 }
 
 /* The same, with the warning of kept buildings in each other's way. */
 static void
-state_typify(const ty_state *s, ty_result *result)
+typify_gathered(const ty_gathered *g, ty_result *result)
 {
 	const ty_collisions *c = &result->collisions;
 
-	state_typify_quietly(s, result);
-	ty_warn_of_collisions(c, s->buildings[c->first_pair[0]].id, s->buildings[c->first_pair[1]].id,
-						  s->buildings[c->first_beside].id);
+	typify_quietly(g, result);
+	ty_warn_of_collisions(c, g->buildings[c->first_pair[0]].id, g->buildings[c->first_pair[1]].id,
+						  g->buildings[c->first_beside].id);
 }
 
 /* Numbers that sort as the ids do. */
@@ -220,18 +265,18 @@ id_of_sortable(uint64 number)
 
 /* Ids must differ. What it takes to see that is given back before the group is typified. */
 static void
-check_ids(const ty_state *s)
+check_ids(const ty_gathered *g)
 {
-	uint64 *ids = ty_allocate_array(&ty_backend_environment, s->count, sizeof(uint64));
-	uint32 *unused = ty_allocate_array(&ty_backend_environment, s->count, sizeof(uint32));
+	uint64 *ids = ty_allocate_array(&ty_backend_environment, g->count, sizeof(uint64));
+	uint32 *unused = ty_allocate_array(&ty_backend_environment, g->count, sizeof(uint32));
 
-	for (size_t i = 0; i < s->count; i++)
+	for (size_t i = 0; i < g->count; i++)
 	{
-		ids[i] = sortable_id(s->buildings[i].id);
+		ids[i] = sortable_id(g->buildings[i].id);
 		unused[i] = 0;
 	}
-	ty_check_status(ty_sort_keys(&ty_backend_environment, ids, unused, s->count));
-	for (size_t i = 1; i < s->count; i++)
+	ty_check_status(ty_sort_keys(&ty_backend_environment, ids, unused, g->count));
+	for (size_t i = 1; i < g->count; i++)
 		if (ids[i] == ids[i - 1])
 			ereport(ERROR, errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 					errmsg("id %lld occurs more than once in a group", (long long) id_of_sortable(ids[i])),
@@ -252,7 +297,7 @@ check_ids(const ty_state *s)
 typedef struct row_writer
 {
 	ty_row_array rows;
-	const ty_state *group;
+	const ty_gathered *group;
 	const ty_result *result;
 	void *polygon;					 /* TY_POLYGON_DATUM_SIZE bytes, used for every row */
 	ArrayType *members;				 /* room for the largest placeholder's */
@@ -263,24 +308,24 @@ typedef struct row_writer
 
 /* of the polygon's value */
 static size_t
-polygon_size(const ty_state *s, const ty_placeholder *placeholder)
+polygon_size(const ty_gathered *g, const ty_placeholder *placeholder)
 {
-	return placeholder->outlined ? ty_outline_polygon_size(s->outlines[placeholder->representative])
+	return placeholder->outlined ? ty_outline_polygon_size(g->outlines[placeholder->representative])
 								 : TY_POLYGON_DATUM_SIZE;
 }
 
 static size_t
-rows_size(const ty_state *s, const ty_result *result)
+rows_size(const ty_gathered *g, const ty_result *result)
 {
 	size_t size = 0;
 
 	for (size_t k = 0; k < result->count; k++)
-		size += ROW_SIZE + polygon_size(s, &result->placeholders[k]) + MEMBERS_SIZE(result->placeholders[k].count);
+		size += ROW_SIZE + polygon_size(g, &result->placeholders[k]) + MEMBERS_SIZE(result->placeholders[k].count);
 	return size;
 }
 
 static void
-writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result,
+writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_gathered *g, const ty_result *result,
 			 const ty_parameters *site_parameters)
 {
 	bool sited = site_parameters != NULL;
@@ -288,10 +333,10 @@ writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, con
 
 	ty_row_array_begin(&writer->rows, fcinfo, TY_PLACEHOLDER_FIELDS + sited,
 					   sited ? "typify_site" : "typify_placeholder",
-					   rows_size(s, result) + (sited ? result->count * SITE_SIZE_BOUND : 0), result->count);
+					   rows_size(g, result) + (sited ? result->count * SITE_SIZE_BOUND : 0), result->count);
 	for (size_t k = 0; k < result->count; k++)
 		most = Max(most, result->placeholders[k].count);
-	writer->group = s;
+	writer->group = g;
 	writer->result = result;
 	writer->polygon = palloc(TY_POLYGON_DATUM_SIZE);
 	writer->members = palloc(MEMBERS_SIZE(most));
@@ -305,8 +350,8 @@ writer_begin(row_writer *writer, FunctionCallInfo fcinfo, const ty_state *s, con
 static Datum
 writer_site(row_writer *writer, const ty_placeholder *placeholder)
 {
-	const ty_state *s = writer->group;
-	ty_input input = input_of(s);
+	const ty_gathered *g = writer->group;
+	ty_input input = input_of(g);
 	ty_site site;
 
 	if (writer->result->sites != NULL)
@@ -338,21 +383,22 @@ writer_members(row_writer *writer, const ty_placeholder *placeholder)
 static Datum
 writer_polygon(row_writer *writer, const ty_placeholder *placeholder)
 {
-	const ty_state *s = writer->group;
+	const ty_gathered *g = writer->group;
 
 	if (placeholder->outlined)
-		return PointerGetDatum(ty_outline_polygon(placeholder, s->outlines[placeholder->representative], s->srid));
-	return ty_write_rectangle(writer->polygon, placeholder, s->srid);
+		return PointerGetDatum(
+			ty_outline_polygon(placeholder, g->outlines[placeholder->representative], g->variant->srid));
+	return ty_write_rectangle(writer->polygon, placeholder, g->variant->srid);
 }
 
 static void
 writer_add(row_writer *writer, const ty_placeholder *placeholder)
 {
-	const ty_state *s = writer->group;
+	const ty_gathered *g = writer->group;
 	Datum *values = writer->rows.values;
 	Datum polygon = placeholder->area > 0 ? writer_polygon(writer, placeholder) : (Datum) 0;
 
-	ty_placeholder_values(placeholder, s->buildings[placeholder->representative].id, polygon, values,
+	ty_placeholder_values(placeholder, g->buildings[placeholder->representative].id, polygon, values,
 						  writer->rows.nulls);
 	values[TY_PLACEHOLDER_MEMBERS] = writer_members(writer, placeholder);
 	writer->rows.nulls[TY_PLACEHOLDER_MEMBERS] = false;
@@ -377,12 +423,12 @@ writer_end(row_writer *writer)
 }
 
 static Datum
-placeholder_array(FunctionCallInfo fcinfo, const ty_state *s, const ty_result *result,
+placeholder_array(FunctionCallInfo fcinfo, const ty_gathered *g, const ty_result *result,
 				  const ty_parameters *site_parameters)
 {
 	row_writer writer;
 
-	writer_begin(&writer, fcinfo, s, result, site_parameters);
+	writer_begin(&writer, fcinfo, g, result, site_parameters);
 	for (size_t k = 0; k < result->count; k++)
 	{
 		CHECK_FOR_INTERRUPTS();
@@ -466,28 +512,55 @@ look_for_barriers(void *context, int argument, Datum value, Oid type, bool per_q
 	return true;
 }
 
-/* Gives a the barriers that b has or, where a worker sent their hash alone, that the plan has. */
-static void
-adopt_barriers(FunctionCallInfo fcinfo, MemoryContext context, ty_state *a, const ty_state *b)
+/* What a combine function remembers between groups. */
+typedef struct combine_call
+{
+	ty_barrier_cache barriers;
+	ty_pools pools;
+} combine_call;
+
+static combine_call *
+combine_call_of(FunctionCallInfo fcinfo)
 {
 	FmgrInfo *function = fcinfo->flinfo;
-	barrier_search search = {.context = context, .long_context = function->fn_mcxt, .hash = b->parameters.barriers};
 
-	if (a->barriers != NULL || ty_no_barriers(search.hash))
-		return;
 	if (function->fn_extra == NULL)
-		function->fn_extra = MemoryContextAllocZero(function->fn_mcxt, sizeof(ty_barrier_cache));
-	search.cache = function->fn_extra;
-	a->barriers = ty_find_barriers(search.cache, context, search.hash);
-	if (a->barriers == NULL && b->barriers != NULL)
-		a->barriers =
-			ty_keep_barriers(search.cache, context, search.hash, b->barriers->payload, b->barriers->size, false);
-	if (a->barriers == NULL && ty_visit_partial_arguments(fcinfo, look_for_barriers, &search))
-		a->barriers = search.found;
-	if (a->barriers == NULL)
+		function->fn_extra = MemoryContextAllocZero(function->fn_mcxt, sizeof(combine_call));
+	return function->fn_extra;
+}
+
+/* The barriers that b has or, where a worker sent their hash alone, that the plan has; NULL for none. */
+static ty_barrier_set *
+find_barriers(FunctionCallInfo fcinfo, MemoryContext context, const ty_variant *b)
+{
+	ty_barrier_cache *cache = &combine_call_of(fcinfo)->barriers;
+	ty_barrier_hash hash = b->parameters.barriers;
+	barrier_search search = {.cache = cache, .context = context, .long_context = fcinfo->flinfo->fn_mcxt, .hash = hash};
+	ty_barrier_set *set;
+
+	if (ty_no_barriers(hash))
+		return NULL;
+	set = ty_find_barriers(cache, context, hash);
+	if (set == NULL && b->barriers != NULL)
+		set = ty_keep_barriers(cache, context, hash, b->barriers->payload, b->barriers->size, false);
+	if (set == NULL && ty_visit_partial_arguments(fcinfo, look_for_barriers, &search))
+		set = search.found;
+	if (set == NULL)
 		ereport(ERROR, errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
 				errmsg("the barriers of a parallel query are not in its plan"),
 				errhint("SET max_parallel_workers_per_gather = 0"));
+	return set;
+}
+
+/* An empty state of what b is typified with. */
+static ty_state *
+state_like(FunctionCallInfo fcinfo, MemoryContext context, const ty_state *b)
+{
+	ty_pool *pool = ty_pool_of(&combine_call_of(fcinfo)->pools, context);
+	ty_variant variant = *b->variant;
+
+	variant.barriers = find_barriers(fcinfo, context, b->variant);
+	return ty_state_new(pool, ty_variant_like(pool, &variant));
 }
 
 PG_FUNCTION_INFO_V1(typify_combine);
@@ -495,19 +568,16 @@ Datum
 typify_combine(PG_FUNCTION_ARGS)
 {
 	MemoryContext context = aggregate_context(fcinfo);
-	ty_state *a = PG_ARGISNULL(0) ? NULL : (ty_state *) PG_GETARG_POINTER(0);
-	const ty_state *b = PG_ARGISNULL(1) ? NULL : (const ty_state *) PG_GETARG_POINTER(1);
+	ty_state *a = state_argument(fcinfo, 0);
+	const ty_state *b = state_argument(fcinfo, 1);
 
-	if (a == NULL && b == NULL)
-		PG_RETURN_NULL();
-	if (a == NULL)
-		a = ty_state_new(context, &b->parameters, b->srid, b->metres_per_unit, b->geometry_type);
 	if (b != NULL)
 	{
-		adopt_barriers(fcinfo, context, a, b);
+		if (a == NULL)
+			a = state_like(fcinfo, context, b);
 		ty_state_merge(a, b);
 	}
-	PG_RETURN_POINTER(a);
+	return state_datum(fcinfo, a);
 }
 
 PG_FUNCTION_INFO_V1(typify_serialize);
@@ -526,19 +596,40 @@ typify_deserialize(PG_FUNCTION_ARGS)
 	PG_RETURN_POINTER(ty_state_deserialize(PG_GETARG_BYTEA_PP(0)));
 }
 
+/* The group of a final function, to be read; false: it has no rows. */
+static bool
+final_group(FunctionCallInfo fcinfo, ty_gathered *g)
+{
+	const ty_state *s = state_argument(fcinfo, 0);
+
+	aggregate_context(fcinfo);
+	if (s != NULL)
+		*g = ty_gather(s);
+	return s != NULL;
+}
+
+/* The same, with ids, which must differ. */
+static bool
+final_group_with_ids(FunctionCallInfo fcinfo, ty_gathered *g)
+{
+	if (!final_group(fcinfo, g))
+		return false;
+	check_ids(g);
+	return true;
+}
+
 PG_FUNCTION_INFO_V1(typify_final);
 Datum
 typify_final(PG_FUNCTION_ARGS)
 {
-	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
+	ty_gathered g;
 	ty_result result;
 	Datum collection;
 
-	aggregate_context(fcinfo);
-	if (s == NULL)
+	if (!final_group(fcinfo, &g))
 		PG_RETURN_NULL();
-	state_typify(s, &result);
-	collection = ty_collection_datum(&result, s->outlines, s->srid);
+	typify_gathered(&g, &result);
+	collection = ty_collection_datum(&result, g.outlines, g.variant->srid);
 	ty_result_free(&ty_backend_environment, &result);
 	PG_RETURN_DATUM(collection);
 }
@@ -547,16 +638,14 @@ PG_FUNCTION_INFO_V1(typify_placeholders_final);
 Datum
 typify_placeholders_final(PG_FUNCTION_ARGS)
 {
-	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
+	ty_gathered g;
 	ty_result result;
 	Datum array;
 
-	aggregate_context(fcinfo);
-	if (s == NULL)
+	if (!final_group_with_ids(fcinfo, &g))
 		PG_RETURN_NULL();
-	check_ids(s);
-	state_typify(s, &result);
-	array = placeholder_array(fcinfo, s, &result, NULL);
+	typify_gathered(&g, &result);
+	array = placeholder_array(fcinfo, &g, &result, NULL);
 	ty_result_free(&ty_backend_environment, &result);
 	PG_RETURN_DATUM(array);
 }
@@ -565,58 +654,44 @@ PG_FUNCTION_INFO_V1(typify_sites_final);
 Datum
 typify_sites_final(PG_FUNCTION_ARGS)
 {
-	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
+	ty_gathered g;
 	ty_parameters parameters;
 	ty_result result;
 	Datum array;
 
-	aggregate_context(fcinfo);
-	if (s == NULL)
+	if (!final_group_with_ids(fcinfo, &g))
 		PG_RETURN_NULL();
-	check_ids(s);
 	/* of these typify_settle tells, once for all groups */
-	state_typify_quietly(s, &result);
-	parameters = s->parameters;
-	ty_bring_to_ground(&parameters, s->metres_per_unit);
-	array = placeholder_array(fcinfo, s, &result, &parameters);
+	typify_quietly(&g, &result);
+	parameters = g.variant->parameters;
+	ty_bring_to_ground(&parameters, g.variant->metres_per_unit);
+	array = placeholder_array(fcinfo, &g, &result, &parameters);
 	ty_result_free(&ty_backend_environment, &result);
 	PG_RETURN_DATUM(array);
-}
-
-/* The state of a group whose hierarchy is made, with ids that differ; NULL: there are no rows. */
-static const ty_state *
-hierarchy_state(FunctionCallInfo fcinfo)
-{
-	const ty_state *s = PG_ARGISNULL(0) ? NULL : (const ty_state *) PG_GETARG_POINTER(0);
-
-	aggregate_context(fcinfo);
-	if (s != NULL)
-		check_ids(s);
-	return s;
 }
 
 PG_FUNCTION_INFO_V1(typify_hierarchy_final);
 Datum
 typify_hierarchy_final(PG_FUNCTION_ARGS)
 {
-	const ty_state *s = hierarchy_state(fcinfo);
+	ty_gathered g;
 	ty_input input;
 
-	if (s == NULL)
+	if (!final_group_with_ids(fcinfo, &g))
 		PG_RETURN_NULL();
-	input = input_of(s);
-	PG_RETURN_DATUM(ty_node_array(fcinfo, &input, &s->parameters));
+	input = input_of(&g);
+	PG_RETURN_DATUM(ty_node_array(fcinfo, &input, &g.variant->parameters));
 }
 
 PG_FUNCTION_INFO_V1(typify_write_hierarchy_final);
 Datum
 typify_write_hierarchy_final(PG_FUNCTION_ARGS)
 {
-	const ty_state *s = hierarchy_state(fcinfo);
+	ty_gathered g;
 	ty_input input;
 
-	if (s == NULL)
+	if (!final_group_with_ids(fcinfo, &g))
 		PG_RETURN_NULL();
-	input = input_of(s);
-	PG_RETURN_DATUM(ty_write_nodes(fcinfo, s, &input));
+	input = input_of(&g);
+	PG_RETURN_DATUM(ty_write_nodes(fcinfo, &g, &input));
 }

@@ -1,8 +1,11 @@
 /* call.c - see call.h */
 #include "call.h"
 
+#include "access/parallel.h"
+#include "access/xact.h"
 #include "nodes/execnodes.h"
 #include "nodes/primnodes.h"
+#include "optimizer/optimizer.h"
 #include "utils/datum.h"
 
 #include "options.h"
@@ -11,6 +14,10 @@
 #define S_U 1
 #define OPTIONS 2
 #define BARRIERS 3
+
+/* Options that come out the same for so many rows, and whose barriers have so many bytes, are worth a notice. */
+#define ROWS_BEFORE_NOTICE 10
+#define LARGE_BARRIERS 32768
 
 /* The planned expression of an argument, or NULL where the caller's context does not tell. */
 static Node *
@@ -50,6 +57,8 @@ find_constancy(ty_call *call, FunctionCallInfo fcinfo, int first)
 		ty_constancy constancy = expression == NULL ? TY_PER_ROW : ty_constancy_of(expression, statement);
 
 		call->constant[i] = constancy == TY_PER_QUERY;
+		if (i == OPTIONS)
+			call->options_per_row = expression != NULL && constancy == TY_PER_ROW;
 		call->constancy = Min(call->constancy, constancy);
 	}
 }
@@ -190,15 +199,53 @@ parameters_with_barriers(ty_call *call, const NullableDatum *arguments)
 	return &call->parameters;
 }
 
+/*
+ * Tells a user, once a statement, of barriers that the server makes anew for every building: of all roads of a country
+ * that takes seconds a building. Of a parallel query one process tells it: the leader, if it takes part.
+ */
+static void
+tell_of_repeated_barriers(const ty_call *call)
+{
+	static TimestampTz told = 0;
+	bool mine = IsParallelWorker() ? ParallelWorkerNumber == 0 && !parallel_leader_participation : true;
+
+	if (!mine || told == GetCurrentStatementStartTimestamp() || call->barriers.current == NULL ||
+		call->barriers.current->size < LARGE_BARRIERS)
+		return;
+	told = GetCurrentStatementStartTimestamp();
+	ereport(NOTICE, errmsg("options with barriers are made anew for every building"),
+			errhint("Pass them as a sub-select, which is made once: "
+					"(SELECT typify_options(barriers => ST_Collect(geom)) FROM roads)"));
+}
+
+/* Whether the parameters of the row before are those of this row. */
+static bool
+parameters_stand(ty_call *call, const NullableDatum *arguments, bool group_begins)
+{
+	if (!call->parsed)
+		return false;
+	if (call->constancy == TY_PER_QUERY || (call->constancy == TY_PER_GROUP && !group_begins))
+		return true;
+	if (!same_arguments(call, arguments))
+	{
+		call->repeated = 0;
+		return false;
+	}
+	if (unlikely(call->options_per_row) && call->repeated++ >= ROWS_BEFORE_NOTICE)
+	{
+		call->repeated = ROWS_BEFORE_NOTICE;
+		tell_of_repeated_barriers(call);
+	}
+	return true;
+}
+
 const ty_parameters *
 ty_call_parameters(ty_call *call, const NullableDatum *arguments, bool group_begins)
 {
 	ty_parameters parameters;
 
-	if (likely(call->parsed))
-		if (call->constancy == TY_PER_QUERY || (call->constancy == TY_PER_GROUP && !group_begins) ||
-			same_arguments(call, arguments))
-			return parameters_with_barriers(call, arguments);
+	if (likely(parameters_stand(call, arguments, group_begins)))
+		return parameters_with_barriers(call, arguments);
 	parameters = parse(call, arguments);
 	if (call->constancy != TY_PER_QUERY)
 		keep_arguments(call, arguments);

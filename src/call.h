@@ -9,6 +9,7 @@
 #include "compat.h"
 #include "constancy.h"
 #include "core/placeholder.h"
+#include "pool.h"
 #include "srid.h"
 
 /*
@@ -23,6 +24,8 @@ typedef struct ty_call
 	MemoryContext group_context;	  /* of the group that asks; set by whoever calls ty_call_parameters */
 	ty_constancy constancy;			  /* the least of the arguments' */
 	bool constant[TY_CALL_ARGUMENTS]; /* for the query */
+	bool options_per_row;			  /* the plan makes them anew for every row */
+	int repeated;					  /* rows on end for which that gave the same */
 	int given;						  /* 1 .. TY_CALL_ARGUMENTS */
 	bool with_scale;				  /* false: a hierarchy's, whose first argument is not looked at */
 	bool parsed;
@@ -32,6 +35,7 @@ typedef struct ty_call
 	ty_barrier_hash barriers_argument; /* once parsed */
 	uint64 generation;				   /* counts how often parameters changed */
 	ty_srid_cache srids;
+	ty_pools pools; /* of an aggregate */
 } ty_call;
 
 /*

@@ -211,7 +211,7 @@ close_table(node_table *t)
 }
 
 static void
-add_node(node_table *t, const ty_state *s, const ty_hierarchy *h, size_t number, const ty_node *node, double reach)
+add_node(node_table *t, const ty_gathered *g, const ty_hierarchy *h, size_t number, const ty_node *node, double reach)
 {
 	TupleTableSlot *slot = next_slot(t);
 	Point *place = &t->places[t->waiting];
@@ -220,9 +220,10 @@ add_node(node_table *t, const ty_state *s, const ty_hierarchy *h, size_t number,
 	ExecClearTuple(slot);
 	memset(slot->tts_isnull, false, COLUMNS * sizeof(bool));
 	memset(slot->tts_isnull + COLUMNS, true, (columns - COLUMNS) * sizeof(bool));
-	slot->tts_values[COLUMN_GROUP_ID] = Int32GetDatum(s->group_id);
+	slot->tts_values[COLUMN_GROUP_ID] = Int32GetDatum(g->state->group_id);
 	ty_node_values(h, number, node, slot->tts_values + COLUMN_NODE, slot->tts_isnull + COLUMN_NODE);
-	*place = ty_node_place(node->x, node->y, reach, node->scale_from, node->scale_to, s->parameters.source_scale);
+	*place =
+		ty_node_place(node->x, node->y, reach, node->scale_from, node->scale_to, g->variant->parameters.source_scale);
 	slot->tts_values[COLUMN_PLACE] = PointPGetDatum(place);
 	ExecStoreVirtualTuple(slot);
 	t->waiting++;
@@ -248,17 +249,17 @@ sum_up(summary *made, const ty_node *node, double reach)
 }
 
 static int64
-state_of(const ty_state *s)
+state_of(const ty_gathered *g)
 {
 	int64 hash = 0;
 
-	for (size_t i = 0; i < s->count; i++)
-		hash ^= ty_hash_building(&s->buildings[i], s->importance == NULL ? 1 : s->importance[i]);
+	for (size_t i = 0; i < g->count; i++)
+		hash ^= ty_hash_building(&g->buildings[i], g->importance == NULL ? 1 : g->importance[i]);
 	return hash;
 }
 
 static Datum
-made_datum(FunctionCallInfo fcinfo, const ty_state *s, const summary *made)
+made_datum(FunctionCallInfo fcinfo, const ty_gathered *g, const summary *made)
 {
 	TupleDesc shape;
 	Datum values[MADE_FIELDS];
@@ -269,8 +270,8 @@ made_datum(FunctionCallInfo fcinfo, const ty_state *s, const summary *made)
 	shape = BlessTupleDesc(shape);
 	if (shape->natts != MADE_FIELDS)
 		elog(ERROR, "typify_hierarchy_made is not declared as this library expects");
-	values[MADE_COUNT] = Int64GetDatum((int64) s->count);
-	values[MADE_STATE] = Int64GetDatum(state_of(s));
+	values[MADE_COUNT] = Int64GetDatum((int64) g->count);
+	values[MADE_STATE] = Int64GetDatum(state_of(g));
 	values[MADE_REACH] = Float8GetDatum(made->reach);
 	values[MADE_WEST] = Float8GetDatum(made->west);
 	values[MADE_SOUTH] = Float8GetDatum(made->south);
@@ -280,14 +281,14 @@ made_datum(FunctionCallInfo fcinfo, const ty_state *s, const summary *made)
 }
 
 Datum
-ty_write_nodes(FunctionCallInfo fcinfo, const ty_state *s, const ty_input *input)
+ty_write_nodes(FunctionCallInfo fcinfo, const ty_gathered *g, const ty_input *input)
 {
 	summary made = {0, INFINITY, INFINITY, -INFINITY, -INFINITY};
 	node_table *t = palloc(sizeof(node_table));
 	ty_hierarchy h;
 
-	open_table(t, s->hierarchy);
-	ty_build_hierarchy(input, &s->parameters, &h);
+	open_table(t, g->state->hierarchy);
+	ty_build_hierarchy(input, &g->variant->parameters, &h);
 	for (size_t place = 0; place < ty_hierarchy_nodes(&h); place++)
 	{
 		size_t number = ty_hierarchy_stored(&h, place);
@@ -296,12 +297,12 @@ ty_write_nodes(FunctionCallInfo fcinfo, const ty_state *s, const ty_input *input
 
 		ty_hierarchy_fetch(&h, place + TY_FETCHED_AHEAD);
 		node = ty_hierarchy_node(&h, number);
-		reach = ty_node_reach(node.area, node.ratio, s->parameters.psi);
+		reach = ty_node_reach(node.area, node.ratio, g->variant->parameters.psi);
 		sum_up(&made, &node, reach);
-		add_node(t, s, &h, number, &node, reach);
+		add_node(t, g, &h, number, &node, reach);
 	}
 	ty_hierarchy_free(&ty_backend_environment, &h);
 	close_table(t);
 	pfree(t);
-	return made_datum(fcinfo, s, &made);
+	return made_datum(fcinfo, g, &made);
 }

@@ -13,6 +13,6 @@
  * Raises an error, before anything is built, for a table that is not as typify_build_hierarchy makes it, or that the
  * user may not insert into.
  */
-extern Datum ty_write_nodes(FunctionCallInfo fcinfo, const ty_state *s, const ty_input *input);
+extern Datum ty_write_nodes(FunctionCallInfo fcinfo, const ty_gathered *g, const ty_input *input);
 
 #endif

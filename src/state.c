@@ -1,19 +1,15 @@
 /* state.c - see state.h */
 #include "state.h"
 
-#include "miscadmin.h"
 #include "utils/memutils.h"
 
-#include "backend.h"
 #include "call.h"
-#include "core/mesh.h"
 #include "geometry.h"
 #include "options.h"
 #include "srid.h"
 
-/* The first buildings lie behind the state, in one piece of this size: there may be 100 000 groups of about ten. */
-#define STATE_SIZE 1024
-#define FIRST_BUILDINGS ((STATE_SIZE - offsetof(ty_state, first)) / sizeof(ty_building))
+/* So many of a pool's variants are looked at for one that a group can share: some scales that take turns. */
+#define VARIANTS_LOOKED_AT 8
 
 /*
  * A state as it travels between the processes of one parallel query: this header, then the buildings, then their
@@ -36,101 +32,87 @@ typedef struct state_image
 
 #define STATE_MAGIC 0x54590005 /* the last byte is the version */
 
-/* Makes an empty state in the context. */
-ty_state *
-ty_state_new(MemoryContext context, const ty_parameters *parameters, int32 srid, double metres_per_unit,
-			 Oid geometry_type)
-{
-	ty_state *s = MemoryContextAlloc(context, STATE_SIZE);
+/* --- groups and what they are typified with --- */
 
-	s->context = context;
-	s->parameters = *parameters;
-	s->generation = 0;
-	s->srid = srid;
-	s->metres_per_unit = metres_per_unit;
-	s->geometry_type = geometry_type;
+ty_variant *
+ty_variant_like(ty_pool *pool, const ty_variant *like)
+{
+	ty_variant *v = pool->variants;
+
+	for (int i = 0; v != NULL && i < VARIANTS_LOOKED_AT; i++, v = v->next)
+		if (v->srid == like->srid && v->barriers == like->barriers &&
+			ty_same_parameters(&v->parameters, &like->parameters))
+		{
+			v->generation = like->generation;
+			return v;
+		}
+	v = MemoryContextAlloc(pool->context, sizeof(ty_variant));
+	*v = *like;
+	v->next = pool->variants;
+	pool->variants = v;
+	return v;
+}
+
+ty_state *
+ty_state_new(ty_pool *pool, ty_variant *variant)
+{
+	ty_state *s = MemoryContextAlloc(pool->context, sizeof(ty_state));
+
+	s->pool = pool;
+	s->variant = variant;
+	s->number = ty_pool_begin_group(pool);
 	s->count = 0;
-	s->capacity = FIRST_BUILDINGS;
-	s->buildings = s->first;
-	s->outlines = NULL;
-	s->importance = NULL;
 	s->hierarchy = InvalidOid;
 	s->group_id = 0;
-	s->barriers = NULL;
 	return s;
 }
 
-/* Room for more buildings. Sizes are powers of two: that is what a memory context hands out anyway. */
-void
-ty_state_reserve(ty_state *s, size_t more)
+/* Groups are read in any order too: all of a small one comes at once. */
+static inline void
+fetch(const ty_building *buildings, size_t count)
 {
-	size_t size = 2 * STATE_SIZE;
+	const char *end = (const char *) (buildings + Min(count, 32));
 
-	if (more <= s->capacity - s->count)
-		return;
-	if (more > TY_MAX_VERTICES - s->count)
-		ty_check_status(TY_TOO_MANY);
-	while (size / sizeof(ty_building) < s->count + more)
-		size *= 2;
-	if (s->buildings == s->first)
-	{
-		s->buildings = MemoryContextAllocHuge(s->context, size);
-		memcpy(s->buildings, s->first, s->count * sizeof(ty_building));
-	}
-	else
-		s->buildings = repalloc_huge(s->buildings, size);
-	s->capacity = size / sizeof(ty_building);
-	if (s->outlines != NULL)
-		s->outlines = repalloc_huge(s->outlines, s->capacity * sizeof(ty_outline *));
-	if (s->importance != NULL)
-		s->importance = repalloc_huge(s->importance, s->capacity * sizeof(double));
+	for (const char *at = (const char *) buildings; at < end; at += PG_CACHE_LINE_SIZE / 2)
+		__builtin_prefetch(at);
 }
 
-/* --- importances --- */
-
-/* Sets the importances of the buildings from number `from` on to 1. */
-static void
-clear_importance(ty_state *s, size_t from)
+/* A column of importances says more than none only where one is not 1. */
+static const double *
+importances_of(const double *importance, size_t count)
 {
-	for (size_t i = from; i < s->count; i++)
-		s->importance[i] = 1;
+	for (size_t i = 0; importance != NULL && i < count; i++)
+		if (importance[i] != 1)
+			return importance;
+	return NULL;
 }
 
-static void
-begin_importance(ty_state *s)
+static ty_outline *const *
+outlines_of(ty_outline *const *outlines, size_t count)
 {
-	if (s->importance != NULL)
-		return;
-	s->importance = MemoryContextAllocHuge(s->context, s->capacity * sizeof(double));
-	clear_importance(s, 0);
+	for (size_t i = 0; outlines != NULL && i < count; i++)
+		if (outlines[i] != NULL)
+			return outlines;
+	return NULL;
 }
 
-void
-ty_state_set_importance(ty_state *s, double importance)
+ty_gathered
+ty_gather(const ty_state *s)
 {
-	begin_importance(s);
-	s->importance[s->count - 1] = importance;
+	ty_pool *pool = s->pool;
+	size_t first = ty_pool_gather(pool, s->number);
+
+	fetch(pool->buildings + first, s->count);
+	return (ty_gathered){.state = s,
+						 .variant = s->variant,
+						 .count = s->count,
+						 .buildings = pool->buildings + first,
+						 .importance =
+							 importances_of(pool->importance == NULL ? NULL : pool->importance + first, s->count),
+						 .outlines = outlines_of(pool->outlines == NULL ? NULL : pool->outlines + first, s->count)};
 }
 
 /* --- outlines --- */
-
-/* Sets the outlines of the buildings from number `from` on to none. */
-static void
-clear_outlines(ty_state *s, size_t from)
-{
-	for (size_t i = from; i < s->count; i++)
-		s->outlines[i] = NULL;
-}
-
-/* From now on every building has an outline or none. */
-static void
-begin_outlines(ty_state *s)
-{
-	if (s->outlines != NULL)
-		return;
-	s->outlines = MemoryContextAllocHuge(s->context, s->capacity * sizeof(ty_outline *));
-	clear_outlines(s, 0);
-}
 
 static size_t
 outline_bytes(const ty_outline *outline)
@@ -138,52 +120,43 @@ outline_bytes(const ty_outline *outline)
 	return ty_outline_size(outline->rings, outline->points);
 }
 
-void
-ty_state_give_outline(ty_state *s, const ty_outline *outline)
-{
-	begin_outlines(s);
-	s->outlines[s->count - 1] = ty_copy_outline(outline, s->context);
-}
-
-/* How many outlines a state has, and what they take as they travel. */
+/* How many outlines a group has, and what they take as they travel. */
 static size_t
-count_outlines(const ty_state *s, size_t *bytes)
+count_outlines(const ty_gathered *g, size_t *bytes)
 {
 	size_t count = 0;
 
 	*bytes = 0;
-	for (size_t i = 0; s->outlines != NULL && i < s->count; i++)
-		if (s->outlines[i] != NULL)
+	for (size_t i = 0; g->outlines != NULL && i < g->count; i++)
+		if (g->outlines[i] != NULL)
 		{
 			count++;
-			*bytes += sizeof(uint64) + outline_bytes(s->outlines[i]);
+			*bytes += sizeof(uint64) + outline_bytes(g->outlines[i]);
 		}
 	return count;
 }
 
 static void
-write_outlines(const ty_state *s, char *at)
+write_outlines(const ty_gathered *g, char *at)
 {
-	for (size_t i = 0; s->outlines != NULL && i < s->count; i++)
-		if (s->outlines[i] != NULL)
+	for (size_t i = 0; g->outlines != NULL && i < g->count; i++)
+		if (g->outlines[i] != NULL)
 		{
 			uint64 building = i;
 
 			memcpy(at, &building, sizeof(building));
-			memcpy(at + sizeof(building), s->outlines[i], outline_bytes(s->outlines[i]));
-			at += sizeof(building) + outline_bytes(s->outlines[i]);
+			memcpy(at + sizeof(building), g->outlines[i], outline_bytes(g->outlines[i]));
+			at += sizeof(building) + outline_bytes(g->outlines[i]);
 		}
 }
 
-/* False when the bytes are not what write_outlines wrote. */
+/* Of the pool's only group. False when the bytes are not what write_outlines wrote. */
 static bool
-read_outlines(ty_state *s, size_t count, const char *at, size_t left)
+read_outlines(ty_pool *pool, size_t count, const char *at, size_t left)
 {
-	if (count > 0)
-		begin_outlines(s);
 	for (; count > 0; count--)
 	{
-		ty_outline head;
+		ty_outline head, *outline;
 		uint64 building;
 		size_t size;
 
@@ -193,10 +166,11 @@ read_outlines(ty_state *s, size_t count, const char *at, size_t left)
 		memcpy(&head, at + sizeof(building), sizeof(head));
 		size = outline_bytes(&head);
 		left -= sizeof(building);
-		if (building >= s->count || size == 0 || size > left)
+		if (building >= pool->count || size == 0 || size > left)
 			return false;
-		s->outlines[building] = MemoryContextAllocHuge(s->context, size);
-		memcpy(s->outlines[building], at + sizeof(building), size);
+		outline = MemoryContextAllocHuge(pool->context, size);
+		memcpy(outline, at + sizeof(building), size);
+		ty_pool_set_outline(pool, building, outline);
 		at += sizeof(building) + size;
 		left -= size;
 	}
@@ -208,56 +182,50 @@ read_outlines(ty_state *s, size_t count, const char *at, size_t left)
 void
 ty_state_check_srid(const ty_state *s, int32 srid)
 {
-	if (unlikely(s->srid != srid))
-		ty_refuse_two_srids(s->srid, srid);
+	if (unlikely(s->variant->srid != srid))
+		ty_refuse_two_srids(s->variant->srid, srid);
 }
 
+/* Appends copies of buildings. */
 static void
-ty_state_append(ty_state *s, const ty_building *buildings, size_t count)
+append(ty_state *s, const ty_building *buildings, size_t count)
 {
-	ty_state_reserve(s, count);
-	memcpy(s->buildings + s->count, buildings, count * sizeof(ty_building));
-	s->count += count;
-	if (s->outlines != NULL)
-		clear_outlines(s, s->count - count);
-	if (s->importance != NULL)
-		clear_importance(s, s->count - count);
-}
-
-/* Sets the importances of the last buildings. */
-static void
-set_importances(ty_state *s, const void *importance, size_t count)
-{
-	begin_importance(s);
-	memcpy(s->importance + s->count - count, importance, count * sizeof(double));
+	if (count > TY_MAX_VERTICES - s->count)
+		ty_check_status(TY_TOO_MANY);
+	ty_pool_append(s->pool, s->number, buildings, count);
+	s->count += (uint32) count;
 }
 
 /* Appends a copy of what b holds; b stays as it is. */
 void
 ty_state_merge(ty_state *a, const ty_state *b)
 {
-	ty_state_check_srid(a, b->srid);
-	if (!ty_same_parameters(&a->parameters, &b->parameters))
+	ty_gathered added = ty_gather(b);
+	ty_pool *pool = a->pool;
+	size_t first = pool->count;
+
+	ty_state_check_srid(a, b->variant->srid);
+	if (!ty_same_parameters(&a->variant->parameters, &b->variant->parameters))
 		ty_refuse_varying_parameters();
-	ty_state_append(a, b->buildings, b->count);
-	if (b->importance != NULL)
-		set_importances(a, b->importance, b->count);
-	if (b->outlines == NULL)
-		return;
-	begin_outlines(a);
-	for (size_t i = 0; i < b->count; i++)
-		if (b->outlines[i] != NULL)
-			a->outlines[a->count - b->count + i] = ty_copy_outline(b->outlines[i], a->context);
+	append(a, added.buildings, added.count);
+	for (size_t i = 0; added.importance != NULL && i < added.count; i++)
+		if (added.importance[i] != 1)
+			ty_pool_set_importance(pool, first + i, added.importance[i]);
+	for (size_t i = 0; added.outlines != NULL && i < added.count; i++)
+		if (added.outlines[i] != NULL)
+			ty_pool_set_outline(pool, first + i, ty_copy_outline(added.outlines[i], pool->context));
 }
 
 /* In the current context; an error where a bytea cannot hold it. */
 bytea *
 ty_state_serialize(const ty_state *s)
 {
-	size_t outlines_size, outlines = count_outlines(s, &outlines_size);
-	size_t buildings_size = s->count * sizeof(ty_building);
-	size_t importance_size = s->importance == NULL ? 0 : s->count * sizeof(double);
-	size_t barriers_size = s->barriers == NULL || s->barriers->constant ? 0 : s->barriers->size;
+	const ty_variant *v = s->variant;
+	ty_gathered g = ty_gather(s);
+	size_t outlines_size, outlines = count_outlines(&g, &outlines_size);
+	size_t buildings_size = g.count * sizeof(ty_building);
+	size_t importance_size = g.importance == NULL ? 0 : g.count * sizeof(double);
+	size_t barriers_size = v->barriers == NULL || v->barriers->constant ? 0 : v->barriers->size;
 	size_t size = VARHDRSZ + sizeof(state_image) + buildings_size + importance_size + outlines_size + barriers_size;
 	state_image image;
 	bytea *value;
@@ -265,29 +233,29 @@ ty_state_serialize(const ty_state *s)
 
 	if (!AllocSizeIsValid(size))
 		ereport(ERROR, errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
-				errmsg("a group of %zu buildings is too large to pass between parallel processes", s->count),
+				errmsg("a group of %zu buildings is too large to pass between parallel processes", g.count),
 				errhint("SET max_parallel_workers_per_gather = 0"));
 	memset(&image, 0, sizeof(image));
 	image.magic = STATE_MAGIC;
 	image.building_size = sizeof(ty_building);
-	image.srid = s->srid;
-	image.count = s->count;
+	image.srid = v->srid;
+	image.count = g.count;
 	image.outlines = outlines;
 	image.barriers_size = barriers_size;
-	image.has_importance = s->importance != NULL;
-	image.metres_per_unit = s->metres_per_unit;
-	image.geometry_type = s->geometry_type;
-	image.parameters = s->parameters;
+	image.has_importance = g.importance != NULL;
+	image.metres_per_unit = v->metres_per_unit;
+	image.geometry_type = v->geometry_type;
+	image.parameters = v->parameters;
 	value = palloc(size);
 	SET_VARSIZE(value, size);
 	at = VARDATA(value);
 	memcpy(at, &image, sizeof(image));
-	memcpy(at + sizeof(image), s->buildings, buildings_size);
-	if (s->importance != NULL)
-		memcpy(at + sizeof(image) + buildings_size, s->importance, importance_size);
-	write_outlines(s, at + sizeof(image) + buildings_size + importance_size);
+	memcpy(at + sizeof(image), g.buildings, buildings_size);
+	if (g.importance != NULL)
+		memcpy(at + sizeof(image) + buildings_size, g.importance, importance_size);
+	write_outlines(&g, at + sizeof(image) + buildings_size + importance_size);
 	if (barriers_size > 0)
-		memcpy(at + size - VARHDRSZ - barriers_size, s->barriers->payload, barriers_size);
+		memcpy(at + size - VARHDRSZ - barriers_size, v->barriers->payload, barriers_size);
 	return value;
 }
 
@@ -317,27 +285,42 @@ read_header(const char *at, size_t size)
 	return image;
 }
 
+/* What an image says of its group, with the barriers that are its last bytes. */
+static ty_variant
+variant_of_image(const state_image *image, const char *barriers)
+{
+	ty_variant v = {.srid = image->srid,
+					.geometry_type = image->geometry_type,
+					.metres_per_unit = image->metres_per_unit,
+					.parameters = image->parameters};
+
+	if (image->barriers_size > 0)
+		v.barriers = ty_keep_barriers(palloc0(sizeof(ty_barrier_cache)), CurrentMemoryContext,
+									  image->parameters.barriers, barriers, image->barriers_size, false);
+	return v;
+}
+
 ty_state *
 ty_state_deserialize(bytea *value)
 {
 	size_t left = VARSIZE_ANY_EXHDR(value);
 	state_image image = read_header(VARDATA_ANY(value), left);
-	const char *at = VARDATA_ANY(value) + sizeof(image);
-	ty_state *s =
-		ty_state_new(CurrentMemoryContext, &image.parameters, image.srid, image.metres_per_unit, image.geometry_type);
+	const char *at = VARDATA_ANY(value), *barriers = at + left - image.barriers_size;
+	ty_pool *pool = ty_pool_new(CurrentMemoryContext);
+	ty_variant variant = variant_of_image(&image, barriers);
+	ty_state *s = ty_state_new(pool, ty_variant_like(pool, &variant));
 
-	ty_state_append(s, (const ty_building *) at, image.count);
+	at += sizeof(image);
+	append(s, (const ty_building *) at, image.count);
 	at += image.count * sizeof(ty_building);
-	if (image.has_importance)
+	for (size_t i = 0; image.has_importance && i < image.count; i++, at += sizeof(double))
 	{
-		set_importances(s, at, image.count);
-		at += image.count * sizeof(double);
+		double importance;
+
+		memcpy(&importance, at, sizeof(importance));
+		ty_pool_set_importance(pool, i, importance);
 	}
-	left -= at - VARDATA_ANY(value) + image.barriers_size;
-	if (!read_outlines(s, image.outlines, at, left))
+	if (!read_outlines(pool, image.outlines, at, barriers - at))
 		refuse_image();
-	if (image.barriers_size > 0)
-		s->barriers = ty_keep_barriers(palloc0(sizeof(ty_barrier_cache)), CurrentMemoryContext,
-									   image.parameters.barriers, at + left, image.barriers_size, false);
 	return s;
 }

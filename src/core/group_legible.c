@@ -14,6 +14,7 @@
 #include <string.h>
 
 #define NO_RANK UINT32_MAX
+#define AHEAD 8 /* so many placeholders later is a building needed that is called for now */
 
 /* Grid positions, each as often as it weighs; weights sum up to less than 2^62 (influence.h). */
 typedef struct ty_sum
@@ -211,7 +212,11 @@ join(void *context, uint32_t kept, uint32_t gone, uint32_t in_place, ty_site *si
 	j->group->position[rank] = position;
 	p->first = p->count = 0;
 	for (uint32_t r = rank; r != NO_RANK; r = j->next[r])
+	{
+		/* they lie anywhere in memory, and come all at a time */
+		__builtin_prefetch(&j->group->buildings[j->group->order[r]]);
 		j->members[p->count++] = j->group->order[r];
+	}
 	status = ty_describe(j->env, j->group, j->members, rank, p);
 	j->handed[kept] = handed;
 	if (handed && !p->kept)
@@ -335,7 +340,11 @@ prepare(joining *j, const uint32_t *label, size_t n)
 		j->first[label[rank]] = (uint32_t) rank;
 	}
 	for (size_t k = 0; k < j->result->count; k++)
+	{
+		if (k + AHEAD < j->result->count)
+			__builtin_prefetch(&j->input->buildings[j->result->placeholders[k + AHEAD].representative].ratio);
 		ty_placeholder_site(j->group->parameters, j->input, &j->result->placeholders[k], &j->sites[k]);
+	}
 	put_in_rows(&j->group->pieces, j->sites);
 	return TY_OK;
 }

@@ -29,23 +29,24 @@ typedef enum ty_site_state
 
 typedef struct ty_site
 {
-	ty_point home;			   /* the vertex */
+	/* what pushing looks at stands together: there may be millions of sites, and they wait for memory */
+	ty_point home;	/* the vertex */
+	ty_point moved; /* given and returned: from home */
+	ty_point axis; /* of the row it stands in, a unit vector: off that line it goes but a part of the gap; 0: in none */
+	double size;   /* given and returned: 2: full, 1: own, 0: least, and in between */
+	ty_site_state state; /* given and returned */
+	uint32_t into;
+
 	double ux, uy;			   /* unit vector along the length */
 	ty_sides full, own, least; /* full >= own >= least, side by side */
 	ty_point shift;			   /* of the rectangle's centre from the vertex at full size; in proportion to the length */
+	double rail;			   /* how far to the left of the axis its row has been moved as a whole ... */
+	double bend;			   /* ... and how far the axis lies beside the buildings that its row stands for, at most */
+	uint32_t row, place;	   /* in ty_legibility.rows; TY_NO_ROW */
 	uint32_t weight;		   /* members: where one of two has to go, it is the lighter */
 	uint32_t group;			   /* only sites of one group are joined */
 	bool fixed;				   /* is not moved, shrunk, joined to another nor hidden; the others yield */
-	ty_point axis; /* of the row it stands in, a unit vector: off that line it goes but a part of the gap; 0: in none */
-	double rail;   /* how far to the left of the axis its row has been moved as a whole ... */
-	double bend;   /* ... and how far the axis lies beside the buildings that its row stands for, at most */
-	uint32_t row, place; /* in ty_legibility.rows; TY_NO_ROW */
-	/* given and returned */
-	ty_point moved; /* from home */
-	double size;	/* 2: full, 1: own, 0: least, and in between */
-	ty_site_state state;
-	uint32_t into;
-	bool relaid; /* home has been changed without a join */
+	bool relaid;			   /* returned: home has been changed without a join */
 } ty_site;
 
 #define TY_NO_SITE UINT32_MAX

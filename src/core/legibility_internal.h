@@ -37,9 +37,17 @@ typedef struct ty_body
 	ty_oblong box;
 	double radius; /* half its diagonal */
 	bool drawn, fixed;
+	bool shifted;	/* its centre is not where its vertex is */
+	bool railed;	/* stays on the line of its row */
 	uint8_t stages; /* of shrinking that are left: 2 above its own size, 1 above the least, 0 */
 	bool clear;		/* is known to be near no line and across none, as it is now */
 } ty_body;
+
+/* Where a site belongs, from the ladder's origin, and how far from there it has been moved. */
+typedef struct ty_place
+{
+	ty_point home, moved;
+} ty_place;
 
 typedef struct ty_ladder
 {
@@ -56,6 +64,7 @@ typedef struct ty_ladder
 	bool unmet;			/* lines are not looked for yet: all sites count as if one were in reach */
 	ty_body *body;		/* [n] where each is now: cache lines of ... */
 	void *body_memory;	/* ... this, which begins a little before */
+	ty_place *place;	/* [n] what pushing needs of the sites beside their bodies; theirs is stale until the end */
 	ty_point *start;	/* [n] moved, as given */
 	double *start_size; /* [n] */
 	bool *frozen;		/* [n] is back at its start and stays there */
@@ -214,6 +223,8 @@ ty_status ty_thin_out(ty_ladder *l);
 ty_status ty_thin_cells(ty_ladder *l);
 /* legibility_settle.c: rounds of shrinking and displacing; below: also below true size. */
 ty_status ty_settle(ty_ladder *l, int rounds, bool below);
+/* legibility_settle.c: the site comes back where it stands farther from home than it may at its present size. */
+void ty_keep_in_bound(ty_ladder *l, uint32_t i);
 /* legibility_settle.c: takes back what was not needed. */
 ty_status ty_relent(ty_ladder *l);
 

@@ -103,9 +103,7 @@ ty_is_behind_line(const ty_ladder *l, uint32_t i, ty_point place)
 bool
 ty_is_across(const ty_ladder *l, uint32_t i)
 {
-	const ty_site *s = &l->sites[i];
-
-	if (!l->by_line[i] || (s->moved.x == 0 && s->moved.y == 0 && s->shift.x == 0 && s->shift.y == 0))
+	if (!l->by_line[i] || (l->place[i].moved.x == 0 && l->place[i].moved.y == 0 && !l->body[i].shifted))
 		return false;
 	return ty_is_behind_line(l, i, (ty_point){l->body[i].box.x, l->body[i].box.y});
 }

@@ -27,6 +27,7 @@ set_free(ty_ladder *l, uint32_t i)
 	s->row = TY_NO_ROW;
 	s->axis = (ty_point){0, 0};
 	s->rail = 0;
+	l->body[i].railed = false;
 	ty_activate(l, i);
 }
 
@@ -86,7 +87,7 @@ ty_take_place(ty_ladder *l, uint32_t i, const ty_site *before)
 	s->axis = before->axis;
 	s->rail = before->rail;
 	s->bend = before->bend;
-	s->moved = ty_rest(s);
+	l->place[i].moved = ty_rest(s);
 	s->relaid = before->relaid;
 	if (ty_in_row(l, i))
 		rows_of(l)->site[rows_of(l)->first[s->row] + s->place] = i;
@@ -361,13 +362,16 @@ move_row(ty_ladder *l, uint32_t i, double lack, ty_point n, double bound)
 	for (uint32_t k = rows->first[row]; k < rows->first[row + 1]; k++)
 	{
 		ty_site *s;
+		ty_point *moved;
 
 		if (rows->site[k] == TY_NO_SITE)
 			continue;
 		s = &l->sites[rows->site[k]];
 		s->rail += way;
-		s->moved = (ty_point){s->moved.x - way * s->axis.y, s->moved.y + way * s->axis.x};
+		moved = &l->place[rows->site[k]].moved;
+		*moved = (ty_point){moved->x - way * s->axis.y, moved->y + way * s->axis.x};
 		ty_place_box(l, rows->site[k]);
+		ty_keep_in_bound(l, rows->site[k]);
 		ty_activate(l, rows->site[k]);
 	}
 	return true;

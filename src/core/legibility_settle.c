@@ -33,7 +33,8 @@ static double
 least_size(const ty_ladder *l, uint32_t i, int floor_size)
 {
 	const ty_site *s = &l->sites[i];
-	double moved = sqrt(s->moved.x * s->moved.x + s->moved.y * s->moved.y);
+	ty_point way = l->place[i].moved;
+	double moved = sqrt(way.x * way.x + way.y * way.y);
 	ty_sides high = floor_size >= 1 ? s->full : s->own, low = floor_size >= 1 ? s->own : s->least;
 	double span = high.length - low.length;
 
@@ -55,7 +56,10 @@ span_of_stage(const ty_ladder *l, uint32_t i, ty_point n, int floor_size)
 	return ty_extent(&box, n);
 }
 
-/* Shrinks the site by what is lacking along n, in one step, and not below the floor. Whether it became smaller. */
+/*
+ * Shrinks the site by what is lacking along n, in one step, and not below the floor; one that stands too far from home
+ * for its longer side then comes back, unless it is to stay. Whether it became smaller.
+ */
 static bool
 shrink(ty_ladder *l, uint32_t i, double lack, ty_point n, int floor_size)
 {
@@ -64,12 +68,13 @@ shrink(ty_ladder *l, uint32_t i, double lack, ty_point n, int floor_size)
 
 	if (l->body[i].stages <= floor_size)
 		return false;
-	least = least_size(l, i, floor_size);
+	least = l->frozen[i] ? least_size(l, i, floor_size) : floor_size;
 	span = span_of_stage(l, i, n, floor_size);
 	if (!(size > least))
 		return false;
 	s->size = fmax(least, size - (span > 0 ? fmin(SHRINK_STEP, lack / span) : SHRINK_STEP));
 	ty_place_box(l, i);
+	ty_keep_in_bound(l, i);
 	return s->size < size;
 }
 
@@ -93,6 +98,12 @@ shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, int 
 
 /* ---- displacing ---- */
 
+/*
+ * How much farther than they lack two are pushed apart as long as nobody is below its true size: successive
+ * over-relaxation (Young 1954), which as there is best a little below 2. Of a million buildings at 1:75 000 settling
+ * takes half the time and 1 % more sites are left; with 3 it is 3 % fewer. What went too far comes back in the end.
+ */
+#define PUSH 1.8
 #define STAGNANT 0.97 /* share of what was lacking a round before, above which another round is not worth its time */
 
 /* The way from home of a site on a rail: off its line but a little. */
@@ -112,24 +123,35 @@ on_rail(const ty_ladder *l, uint32_t i, ty_point way)
 static double
 displace(ty_ladder *l, uint32_t i, double distance, ty_point n)
 {
-	ty_site *s = &l->sites[i];
-	ty_point to = {s->moved.x + distance * n.x, s->moved.y + distance * n.y}, from = s->moved;
-	double bound = fmax(ty_free_way(l, i), l->body[i].box.half_length), squared;
+	ty_point from = l->place[i].moved, to = {from.x + distance * n.x, from.y + distance * n.y};
+	double bound = l->body[i].box.half_length, squared;
 
-	if (s->fixed || l->frozen[i])
+	if (l->body[i].fixed || l->frozen[i])
 		return 0;
-	if (ty_on_rail(s))
+	if (l->body[i].railed)
 		to = on_rail(l, i, to);
 	squared = to.x * to.x + to.y * to.y;
+	if (squared > bound * bound)
+		bound = fmax(bound, ty_free_way(l, i));
 	if (squared > bound * bound)
 	{
 		double factor = bound / sqrt(squared);
 
 		to = (ty_point){to.x * factor, to.y * factor};
 	}
-	s->moved = to;
+	l->place[i].moved = to;
 	ty_move_box(l, i);
 	return (to.x - from.x) * n.x + (to.y - from.y) * n.y;
+}
+
+void
+ty_keep_in_bound(ty_ladder *l, uint32_t i)
+{
+	double bound = l->body[i].box.half_length;
+	ty_point moved = l->place[i].moved;
+
+	if (moved.x * moved.x + moved.y * moved.y > bound * bound)
+		displace(l, i, 0, (ty_point){0, 0});
 }
 
 /*
@@ -140,8 +162,7 @@ static void
 push_apart(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point n)
 {
 	ty_point back = {-n.x, -n.y};
-	bool a_stays = ty_on_rail(&l->sites[a]) && !ty_on_rail(&l->sites[b]);
-	bool b_stays = ty_on_rail(&l->sites[b]) && !ty_on_rail(&l->sites[a]);
+	bool a_stays = l->body[a].railed && !l->body[b].railed, b_stays = l->body[b].railed && !l->body[a].railed;
 
 	if (!a_stays)
 		lack -= displace(l, a, b_stays ? lack : 0.5 * lack, back);
@@ -158,7 +179,7 @@ settle_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point n, bool 
 	if (lack > 0 && below)
 		lack = shrink_pair(l, a, b, lack, &n, 0);
 	if (lack > 0)
-		push_apart(l, a, b, lack, n);
+		push_apart(l, a, b, below ? lack : PUSH * lack, n);
 	ty_activate(l, a);
 	ty_activate(l, b);
 }
@@ -174,7 +195,7 @@ settle_by_line(ty_ladder *l, uint32_t i, bool below)
 		return;
 	if (ty_is_across(l, i))
 	{
-		l->sites[i].moved = (ty_point){0, 0};
+		l->place[i].moved = (ty_point){0, 0};
 		ty_place_box(l, i);
 		ty_activate(l, i);
 	}
@@ -277,49 +298,44 @@ has_room(const ty_ladder *l, uint32_t i, uint32_t *obstacle)
 	return true;
 }
 
-/* The site as it would be elsewhere, or larger. */
-static void
-set_site(ty_ladder *l, uint32_t i, ty_point moved, double size)
-{
-	l->sites[i].moved = moved;
-	l->sites[i].size = size;
-	ty_place_box(l, i);
-}
-
 /* All the way home, or as much of it as there is room for. */
 static void
 go_home(ty_ladder *l, uint32_t i)
 {
-	ty_point moved = l->sites[i].moved, rest = ty_rest(&l->sites[i]);
-	double size = l->sites[i].size, share = 0;
+	ty_point moved = l->place[i].moved, rest = ty_rest(&l->sites[i]);
+	double share = 0;
 	uint32_t obstacle = TY_NO_SITE;
 
 	for (int step = 0; step < RELENT_STEPS; step++)
 	{
-		set_site(l, i, (ty_point){rest.x + share * (moved.x - rest.x), rest.y + share * (moved.y - rest.y)}, size);
+		l->place[i].moved = (ty_point){rest.x + share * (moved.x - rest.x), rest.y + share * (moved.y - rest.y)};
+		ty_move_box(l, i);
 		if (has_room(l, i, &obstacle))
 			return;
 		share = 0.5 * (share + 1);
 	}
-	set_site(l, i, moved, size);
+	l->place[i].moved = moved;
+	ty_move_box(l, i);
 }
 
 /* As large as there is room for, up to its true size and then up to its full one. */
 static void
 grow_again(ty_ladder *l, uint32_t i)
 {
-	ty_point moved = l->sites[i].moved;
-	double size = l->sites[i].size, high = 2;
+	ty_site *s = &l->sites[i];
+	double size = s->size, high = 2;
 	uint32_t obstacle = TY_NO_SITE;
 
 	for (int step = 0; step < RELENT_STEPS; step++)
 	{
-		set_site(l, i, moved, high);
+		s->size = high;
+		ty_place_box(l, i);
 		if (has_room(l, i, &obstacle))
 			return;
 		high = 0.5 * (size + high);
 	}
-	set_site(l, i, moved, size);
+	s->size = size;
+	ty_place_box(l, i);
 }
 
 ty_status
@@ -331,8 +347,8 @@ ty_relent(ty_ladder *l)
 		for (uint32_t i = 0; status == TY_OK && i < l->n; i++)
 		{
 			ty_site *s = &l->sites[i];
-			ty_point rest = ty_rest(s);
-			bool away = s->moved.x != rest.x || s->moved.y != rest.y, small = s->size < 2;
+			ty_point rest = ty_rest(s), moved = l->place[i].moved;
+			bool away = moved.x != rest.x || moved.y != rest.y, small = s->size < 2;
 
 			if (ty_interrupted_at(l->env, i))
 				return TY_INTERRUPTED;

@@ -10,15 +10,6 @@ typedef struct relation
 	double cosine, sine;
 } relation;
 
-static relation
-relate(const ty_oblong *a, const ty_oblong *b)
-{
-	double dx = b->x - a->x, dy = b->y - a->y;
-
-	return (relation){dx * a->ux + dy * a->uy, dy * a->ux - dx * a->uy, a->ux * b->ux + a->uy * b->uy,
-					  a->ux * b->uy - a->uy * b->ux};
-}
-
 /* the vector (along, across) of the frame of a, in the plane */
 static ty_point
 in_the_plane(const ty_oblong *a, double along, double across)
@@ -26,25 +17,28 @@ in_the_plane(const ty_oblong *a, double along, double across)
 	return (ty_point){along * a->ux - across * a->uy, along * a->uy + across * a->ux};
 }
 
-/*
- * Two of the four separating axes: how far b is beyond the sides of a. *away leaves a along the better one, which is
- * along or across it.
- */
-static inline double
-beyond_sides(const ty_oblong *a, const ty_oblong *b, const relation *r, ty_point *away, bool *is_along)
+/* How far b is beyond the sides of a, along and across it. */
+static inline void
+beyond_sides(const ty_oblong *a, const ty_oblong *b, const relation *r, double *along, double *across)
 {
 	double cosine = fabs(r->cosine), sine = fabs(r->sine);
-	double along = fabs(r->along) - (a->half_length + b->half_length * cosine + b->half_width * sine);
-	double across = fabs(r->across) - (a->half_width + b->half_length * sine + b->half_width * cosine);
 
-	*is_along = along > across;
-	if (*is_along)
-	{
-		*away = in_the_plane(a, r->along < 0 ? -1 : 1, 0);
-		return along;
-	}
-	*away = in_the_plane(a, 0, r->across < 0 ? -1 : 1);
-	return across;
+	*along = fabs(r->along) - (a->half_length + b->half_length * cosine + b->half_width * sine);
+	*across = fabs(r->across) - (a->half_width + b->half_length * sine + b->half_width * cosine);
+}
+
+static inline double
+larger(double a, double b)
+{
+	return a > b ? a : b;
+}
+
+/* The unit vector in which b leaves a (or, with sign -1, a leaves b) across the end of a, or across its long side. */
+static inline ty_point
+way_across_side(const ty_oblong *a, const relation *r, bool along, double sign)
+{
+	sign = (along ? r->along : r->across) < 0 ? -sign : sign;
+	return along ? (ty_point){sign * a->ux, sign * a->uy} : (ty_point){-sign * a->uy, sign * a->ux};
 }
 
 /* how far x is outside of -half .. half, 0 inside */
@@ -121,35 +115,29 @@ stands_before_side(const ty_oblong *a, const ty_oblong *b, const relation *r, bo
 double
 ty_lack(const ty_oblong *a, const ty_oblong *b, double gap, ty_point *away)
 {
-	relation ab = relate(a, b), ba;
-	ty_point back, way;
-	bool along_a, along_b;
-	double distance = beyond_sides(a, b, &ab, away, &along_a), other;
+	double dx = b->x - a->x, dy = b->y - a->y;
+	double cosine = a->ux * b->ux + a->uy * b->uy, sine = a->ux * b->uy - a->uy * b->ux;
+	relation ab = {dx * a->ux + dy * a->uy, dy * a->ux - dx * a->uy, cosine, sine};
+	relation ba = {-(dx * b->ux + dy * b->uy), -(dy * b->ux - dx * b->uy), cosine, -sine};
+	double along_a, across_a, along_b, across_b, distance, exact;
+	bool from_b, along;
+	ty_point way;
 
+	beyond_sides(a, b, &ab, &along_a, &across_a);
+	beyond_sides(b, a, &ba, &along_b, &across_b);
+	from_b = larger(along_b, across_b) > larger(along_a, across_a);
+	distance = from_b ? larger(along_b, across_b) : larger(along_a, across_a);
 	if (distance >= gap)
 		return 0;
-	ba = relate(b, a);
-	other = beyond_sides(b, a, &ba, &back, &along_b);
-	if (other >= gap)
-		return 0;
-	if (distance > 0 && distance >= other && stands_before_side(a, b, &ab, along_a))
+	along = from_b ? along_b > across_b : along_a > across_a;
+	*away = from_b ? way_across_side(b, &ba, along, -1) : way_across_side(a, &ab, along, 1);
+	if (!(distance > 0) || (from_b ? stands_before_side(b, a, &ba, along) : stands_before_side(a, b, &ab, along)))
 		return gap - distance;
-	if (other > distance)
+	exact = corner_distance(a, b, &ab, &ba, &way);
+	if (exact > distance)
 	{
-		distance = other;
-		*away = (ty_point){-back.x, -back.y};
-		if (distance > 0 && stands_before_side(b, a, &ba, along_b))
-			return gap - distance;
-	}
-	if (distance > 0)
-	{
-		double exact = corner_distance(a, b, &ab, &ba, &way);
-
-		if (exact > distance)
-		{
-			distance = exact;
-			*away = way;
-		}
+		distance = exact;
+		*away = way;
 	}
 	return distance >= gap ? 0 : gap - distance;
 }

@@ -20,7 +20,8 @@ ty_vicinity_begin(const ty_environment *env, size_t count, ty_vicinity *v)
 	v->discs = ty_allocate_array(env, count, sizeof *v->discs);
 	v->found = ty_allocate_array(env, v->found_capacity, sizeof *v->found);
 	v->around = ty_allocate_array(env, v->around_capacity, sizeof *v->around);
-	if (v->discs == NULL || v->found == NULL || v->around == NULL)
+	v->disc_around = ty_allocate_array(env, v->around_capacity, sizeof *v->disc_around);
+	if (v->discs == NULL || v->found == NULL || v->around == NULL || v->disc_around == NULL)
 		return TY_NO_MEMORY;
 	for (size_t i = 0; i < count; i++)
 	{
@@ -40,6 +41,7 @@ ty_vicinity_free(ty_vicinity *v)
 	ty_release(v->env, v->discs);
 	ty_release(v->env, v->found);
 	ty_release(v->env, v->around);
+	ty_release(v->env, v->disc_around);
 	*v = (ty_vicinity){0};
 }
 
@@ -83,20 +85,31 @@ may_touch(const void *context, const ty_box *box)
 	return ty_box_meets(&((const search *) context)->box, box);
 }
 
+/* Makes room for more numbers than so many. */
 static ty_status
-list(const ty_environment *env, uint32_t number, uint32_t **numbers, size_t *count, size_t *capacity)
+reserve(const ty_environment *env, size_t count, uint32_t **numbers, size_t *capacity)
 {
-	if (*count == *capacity)
-	{
-		uint32_t *larger = ty_reallocate_array(env, *numbers, 2 * *capacity, sizeof *larger);
+	size_t wider = *capacity;
+	uint32_t *larger;
 
-		if (larger == NULL)
-			return TY_NO_MEMORY;
-		*numbers = larger;
-		*capacity *= 2;
-	}
-	(*numbers)[(*count)++] = number;
+	if (count < wider)
+		return TY_OK;
+	while (count >= wider)
+		wider *= 2;
+	larger = ty_reallocate_array(env, *numbers, wider, sizeof *larger);
+	if (larger == NULL)
+		return TY_NO_MEMORY;
+	*numbers = larger;
+	*capacity = wider;
 	return TY_OK;
+}
+
+static inline bool
+touches(const ty_disc *a, const ty_disc *b)
+{
+	double dx = a->x - b->x, dy = a->y - b->y, reach = b->radius + a->radius;
+
+	return dx * dx + dy * dy <= reach * reach;
 }
 
 /* Lists the disc if it touches the one that is looked for. */
@@ -105,11 +118,12 @@ consider(void *context, size_t thing)
 {
 	search *s = context;
 	ty_vicinity *v = s->v;
-	const ty_disc *disc = &v->discs[thing];
-	double dx = disc->x - s->disc.x, dy = disc->y - s->disc.y, reach = s->disc.radius + disc->radius;
 
-	if (thing != s->number && dx * dx + dy * dy <= reach * reach)
-		s->status = list(v->env, (uint32_t) thing, &v->found, &v->found_count, &v->found_capacity);
+	if (thing == s->number || !touches(&v->discs[thing], &s->disc))
+		return true;
+	s->status = reserve(v->env, v->found_count, &v->found, &v->found_capacity);
+	if (s->status == TY_OK)
+		v->found[v->found_count++] = (uint32_t) thing;
 	return s->status == TY_OK;
 }
 
@@ -129,13 +143,17 @@ ty_vicinity_find(ty_vicinity *v, uint32_t number, ty_point center, double radius
 
 /* ---- one after the other ---- */
 
+#define BLOCK 16 /* discs that the tree is searched for at once */
+
 static inline bool
 list_around(void *context, size_t thing)
 {
 	search *s = context;
 	ty_vicinity *v = s->v;
 
-	s->status = list(v->env, (uint32_t) thing, &v->around, &v->around_count, &v->around_capacity);
+	s->status = reserve(v->env, v->around_count, &v->around, &v->around_capacity);
+	if (s->status == TY_OK)
+		v->around[v->around_count++] = (uint32_t) thing;
 	return s->status == TY_OK;
 }
 
@@ -144,23 +162,41 @@ static ty_status
 look_around(ty_vicinity *v, size_t block)
 {
 	search s = {.v = v, .box = nothing, .status = TY_OK};
+	size_t capacity = v->around_capacity;
 
-	for (size_t i = block * TY_BOX_FAN; i < (block + 1) * TY_BOX_FAN && i < v->count; i++)
+	for (size_t i = block * BLOCK; i < (block + 1) * BLOCK && i < v->count; i++)
 		ty_box_enlarge(&s.box, &v->boxes.box[i]);
 	v->around_count = 0;
+	v->block = SIZE_MAX;
 	ty_boxes_search(&v->boxes, may_touch, list_around, &s);
-	v->block = s.status == TY_OK ? block : SIZE_MAX;
-	return s.status;
+	if (v->around_capacity > capacity)
+	{
+		ty_release(v->env, v->disc_around);
+		v->disc_around = ty_allocate_array(v->env, v->around_capacity, sizeof *v->disc_around);
+	}
+	if (s.status == TY_OK && v->disc_around != NULL)
+		s.status = reserve(v->env, v->around_count, &v->found, &v->found_capacity);
+	if (s.status != TY_OK || v->disc_around == NULL)
+		return TY_NO_MEMORY;
+	for (size_t i = 0; i < v->around_count; i++)
+		v->disc_around[i] = v->discs[v->around[i]];
+	v->block = block;
+	return TY_OK;
 }
 
+/* Without a branch, since nobody can tell which of those around touch. */
 ty_status
 ty_vicinity_find_touching(ty_vicinity *v, uint32_t number)
 {
-	search s = {.v = v, .disc = v->discs[number], .number = number};
+	ty_status status = v->block == number / BLOCK ? TY_OK : look_around(v, number / BLOCK);
+	const ty_disc disc = v->discs[number];
+	size_t count = 0;
 
-	s.status = v->block == number / TY_BOX_FAN ? TY_OK : look_around(v, number / TY_BOX_FAN);
-	v->found_count = 0;
-	for (size_t i = 0; s.status == TY_OK && i < v->around_count; i++)
-		consider(&s, v->around[i]);
-	return s.status;
+	for (size_t i = 0; status == TY_OK && i < v->around_count; i++)
+	{
+		v->found[count] = v->around[i];
+		count += touches(&v->disc_around[i], &disc) & (v->around[i] != number);
+	}
+	v->found_count = count;
+	return status;
 }

@@ -25,7 +25,8 @@ typedef struct ty_vicinity
 	ty_boxes boxes;	 /* around the discs; empty where there is none */
 	uint32_t *found; /* [found_count] what was found, ascending */
 	size_t found_count, found_capacity;
-	uint32_t *around; /* [around_count] whose boxes meet that of the block of TY_BOX_FAN discs ... */
+	uint32_t *around;	  /* [around_count] whose boxes meet that of the block of discs ... */
+	ty_disc *disc_around; /* [around_count] these, which come together here */
 	size_t around_count, around_capacity;
 	size_t block; /* ... of this number; SIZE_MAX: of none, as after every change */
 } ty_vicinity;

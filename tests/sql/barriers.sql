@@ -163,6 +163,17 @@ SELECT pg_temp.error_of('SELECT typify_derive(''typify_test_house'', NULL, 50000
 	pg_temp.error_of('SELECT typify_derive(''typify_test_house'', NULL, 50000, barriers => ''typify_test_road'', barriers_geom_column => ''name'')') AS no_geometry,
 	pg_temp.error_of('SELECT typify_create_scale(''x'', ''typify_test_house'', NULL, 50000, options => typify_options(barriers => (SELECT ST_SetSRID(ST_MakeLine(array_agg(ST_MakePoint(i, i % 3))), 2056) FROM generate_series(1, 10000) AS i)))') AS too_large_to_keep;
 
+-- who has large barriers made anew for every building is told so, once a statement; who passes them as a sub-select is not
+CREATE TABLE typify_test_street AS SELECT ST_SetSRID(ST_MakeLine(ST_MakePoint(i, -500), ST_MakePoint(i, -400)), 2056) AS geom FROM generate_series(1, 1000) AS i;
+SELECT ST_NumGeometries(typify(geom, 50000, 0, typify_options(barriers => (SELECT ST_Collect(geom) FROM typify_test_street)))) AS slow,
+	ST_NumGeometries(typify(geom, 100000, 0, typify_options(barriers => (SELECT ST_Collect(geom) FROM typify_test_street)))) AS slow_too FROM typify_test_house, generate_series(1, 3);
+SELECT sum(ST_NumGeometries(t)) AS slow_groups FROM (SELECT typify(geom, 50000, 0, typify_options(barriers => (SELECT ST_Collect(geom) FROM typify_test_street))) AS t FROM typify_test_house, generate_series(1, 3) GROUP BY id) AS g;
+SELECT max(number) AS slow_window FROM (SELECT typify_cluster(geom, 50000, 0, typify_options(barriers => (SELECT ST_Collect(geom) FROM typify_test_street))) OVER () AS number FROM typify_test_house, generate_series(1, 3)) AS w;
+SELECT ST_NumGeometries(typify(geom, 50000, 0, (SELECT typify_options(barriers => ST_Collect(geom)) FROM typify_test_street))) AS fast FROM typify_test_house, generate_series(1, 3);
+SELECT ST_NumGeometries(typify(geom, 50000, 0, typify_options(barriers => (SELECT ST_Collect(geom) FROM typify_test_street WHERE ST_X(ST_StartPoint(geom)) < 10)))) AS few_lines FROM typify_test_house, generate_series(1, 3);
+SELECT ST_NumGeometries(typify(geom, 50000, 0, typify_options(barriers => (SELECT ST_Collect(geom) FROM typify_test_street)))) AS few_buildings FROM typify_test_house;
+DROP TABLE typify_test_street;
+
 DROP MATERIALIZED VIEW typify_test_view;
 DROP VIEW typify_test_grouped;
 DROP TABLE typify_test_house, typify_test_lines, typify_test_barrier, typify_test_town, typify_test_net, typify_test_nets, typify_test_query, typify_test_cell, typify_test_result, typify_test_road, typify_test_layer, typify_test_built;
