@@ -207,7 +207,7 @@ finds_room(const ty_ladder *l, uint32_t i, ty_sides sides, ty_point *moved)
 	const ty_site *s = &l->sites[i];
 	double factor = s->full.length > 0 ? sides.length / s->full.length : 1;
 	double bound = fmax(ty_free_way(l, i), 0.5 * sides.length);
-	ty_point from = {s->home.x - l->origin.x + factor * s->shift.x, s->home.y - l->origin.y + factor * s->shift.y};
+	ty_point from = {l->place[i].home.x + factor * s->shift.x, l->place[i].home.y + factor * s->shift.y};
 	ty_oblong box = {from.x, from.y, s->ux, s->uy, 0.5 * sides.length, 0.5 * sides.width};
 	double radius = sqrt(box.half_length * box.half_length + box.half_width * box.half_width);
 	progress p = {INFINITY, INFINITY};
@@ -251,7 +251,7 @@ take_seat(ty_ladder *l, uint32_t i)
 		s->size = 0;
 	else
 		return false;
-	s->moved = moved;
+	l->place[i].moved = moved;
 	ty_place_box(l, i);
 	return true;
 }
@@ -297,9 +297,9 @@ look_for_room(ty_ladder *l, uint32_t i, surroundings *around, bool *room)
 static inline bool
 has_seat(const ty_ladder *l, uint32_t i)
 {
-	const ty_site *s = &l->sites[i];
+	ty_point moved = l->place[i].moved;
 
-	return l->by_line[i] && l->body[i].clear && (s->moved.x != 0 || s->moved.y != 0);
+	return l->by_line[i] && l->body[i].clear && (moved.x != 0 || moved.y != 0);
 }
 
 /* Who else would sit where the site does: the nearest that it may be joined to; TY_NO_SITE: nobody. */
