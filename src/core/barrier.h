@@ -15,6 +15,7 @@
 
 #include <string.h>
 
+#include "box_squares.h"
 #include "boxes.h"
 #include "environment.h"
 #include "grid.h"
@@ -77,7 +78,8 @@ struct ty_barriers
 	const ty_environment *env;
 	size_t count, capacity;
 	ty_barrier_segment *segments;
-	ty_boxes boxes; /* of TY_BOX_FAN segments each */
+	ty_boxes boxes;			/* of TY_BOX_FAN segments each */
+	ty_box_squares squares; /* of the same boxes, for short edges */
 };
 
 /*

@@ -27,7 +27,7 @@
  */
 #define LEAST_ROUNDS 2
 #define MOST_ROUNDS 8
-#define PATIENCE 131072 /* sites that are looked at in those rounds, but for the least and the most */
+#define PATIENCE 262144 /* sites that are looked at in those rounds, but for the least and the most */
 #define NEAR_EACH 32	/* sites that are kept in mind; one in a town has 20 near it, of which 2 are in its way */
 #define LINES_EACH 80	/* two for a segment that is kept in mind; in a town with all its ways there are 20 in reach */
 #define SQUARE 2		/* times as wide as what a site takes up: neighbours are mostly found in nine squares */

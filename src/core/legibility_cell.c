@@ -4,10 +4,12 @@
  * On a map of a town with all its streets the symbols of lines leave room to every tenth site or so. What has none as
  * small as it may become, wherever it may go, need not be pushed about in rounds: it becomes one with the nearest in its
  * cell between the lines, as often as it takes for that one to have room; where nobody else is left in the cell, the
- * members go to the nearest across. So rounds begin with a quarter of the sites; they took six times as long with all.
+ * members go to the nearest across. So rounds begin with a fifth of the sites; they took ten times as long with all.
  *
  * Whether there is room is found out by a walk away from the lines, first of the disc in the site, among segments in
- * single precision: three quarters come no farther. Nothing that is promised hangs on it.
+ * single precision: three fifths come no farther. Nothing that is promised hangs on it. The place that a site has come to
+ * is its seat, where it begins: at true size, and only where that has none at the least. Two seats that are nearly one
+ * are not worth a struggle: whoever would sit there are joined as well.
  */
 #include "legibility_internal.h"
 
@@ -17,6 +19,12 @@
 #define STEPS 16	  /* that are walked to find room; half as many save no time and lose 1 % of the sites */
 #define STAGNANT 0.97 /* share of what was lacking two steps before, above which a walk leads nowhere */
 #define TURNS_BACK 3  /* of half the way, where a step has led across a line */
+/*
+ * Share of what keeps two apart below which their seats are one. At 0.9 a tenth of the time is saved, but 3 % of the
+ * sites are lost where there is more room; at 0.5 none are.
+ */
+#define ONE_SEAT 0.6
+#define RIVALS_RING 1 /* of squares, each twice as wide as a site: seats are seldom farther from home */
 
 /* What is lacking gets less from step to step, or at least from two steps to the next two. */
 typedef struct progress
@@ -192,15 +200,19 @@ disc_finds_room(const ty_ladder *l, uint32_t i, const surroundings *s, ty_point 
 
 /* ---- the rectangle ---- */
 
-/* Whether the site, whose lines are listed, comes to a place that is far enough from all of them. */
+/* Whether a site of these sides, whose lines are listed, comes to a place far enough from all of them: *moved from home. */
 static bool
-finds_room(const ty_ladder *l, uint32_t i, ty_point from, double bound)
+finds_room(const ty_ladder *l, uint32_t i, ty_sides sides, ty_point *moved)
 {
 	const ty_site *s = &l->sites[i];
-	ty_oblong box = {from.x, from.y, s->ux, s->uy, 0.5 * s->least.length, 0.5 * s->least.width};
+	double factor = s->full.length > 0 ? sides.length / s->full.length : 1;
+	double bound = fmax(ty_free_way(l, i), 0.5 * sides.length);
+	ty_point from = {l->place[i].home.x + factor * s->shift.x, l->place[i].home.y + factor * s->shift.y};
+	ty_oblong box = {from.x, from.y, s->ux, s->uy, 0.5 * sides.length, 0.5 * sides.width};
 	double radius = sqrt(box.half_length * box.half_length + box.half_width * box.half_width);
 	progress p = {INFINITY, INFINITY};
 
+	*moved = (ty_point){0, 0};
 	for (int steps = 0; steps < STEPS; steps++)
 	{
 		ty_point away, way;
@@ -210,17 +222,38 @@ finds_room(const ty_ladder *l, uint32_t i, ty_point from, double bound)
 			return true;
 		if (is_stagnant(&p, lack))
 			return false;
-		way = (ty_point){box.x + lack * away.x - from.x, box.y + lack * away.y - from.y};
+		way = (ty_point){moved->x + lack * away.x, moved->y + lack * away.y};
 		share = share_within(way, bound);
 		for (int turn = 0; turn <= TURNS_BACK; turn++, share *= 0.5)
 		{
-			box.x = from.x + share * way.x;
-			box.y = from.y + share * way.y;
+			*moved = (ty_point){share * way.x, share * way.y};
+			box.x = from.x + moved->x;
+			box.y = from.y + moved->y;
 			if (!ty_is_behind_line(l, i, (ty_point){box.x, box.y}))
 				break;
 		}
 	}
 	return false;
+}
+
+/* Where its lines, which are listed, are in the way of the site at home, it takes a seat. False: there is none. */
+static bool
+take_seat(ty_ladder *l, uint32_t i)
+{
+	ty_site *s = &l->sites[i];
+	ty_point away, moved;
+
+	if (!l->by_line[i] || (!ty_is_line_conflict(l, ty_line_lack(l, i, &away)) && !ty_is_across(l, i)))
+		return true;
+	if (finds_room(l, i, s->own, &moved))
+		s->size = fmin(s->size, 1);
+	else if (s->least.length < s->own.length && finds_room(l, i, s->least, &moved))
+		s->size = 0;
+	else
+		return false;
+	l->place[i].moved = moved;
+	ty_place_box(l, i);
+	return true;
 }
 
 /* ---- sites ---- */
@@ -243,23 +276,60 @@ look_for_room(ty_ladder *l, uint32_t i, surroundings *around, bool *room)
 {
 	const ty_site *s = &l->sites[i];
 	double factor = s->full.length > 0 ? s->least.length / s->full.length : 1;
-	ty_point shift = {factor * s->shift.x, factor * s->shift.y},
-			 home = {s->home.x - l->origin.x, s->home.y - l->origin.y};
+	ty_point from = {factor * s->shift.x, factor * s->shift.y};
 	double bound = fmax(ty_free_way(l, i), 0.5 * s->least.length);
-	double beside = 2 * sqrt(shift.x * shift.x + shift.y * shift.y);
 	ty_status status;
 
 	*room = s->fixed || ty_in_row(l, i) || ty_on_rail(s);
 	if (*room)
 		return meet_lines(l, i);
-	status = ty_list_lines(l, i, bound + beside + 0.5 * s->least.width + l->line_target);
+	status = ty_list_lines(l, i,
+						   bound + 2 * sqrt(from.x * from.x + from.y * from.y) + 0.5 * s->least.width + l->line_target);
 	if (status == TY_OK)
 		status = survey(l, i, around);
-	if (status != TY_OK || !disc_finds_room(l, i, around, shift, bound))
+	if (status != TY_OK || !disc_finds_room(l, i, around, from, bound))
 		return status;
 	status = meet_lines(l, i);
-	*room =
-		status == TY_OK && (!l->by_line[i] || finds_room(l, i, (ty_point){home.x + shift.x, home.y + shift.y}, bound));
+	*room = l->body[i].clear = status == TY_OK && take_seat(l, i);
+	return status;
+}
+
+static inline bool
+has_seat(const ty_ladder *l, uint32_t i)
+{
+	ty_point moved = l->place[i].moved;
+
+	return l->by_line[i] && l->body[i].clear && (moved.x != 0 || moved.y != 0);
+}
+
+/* Who else would sit where the site does: the nearest that it may be joined to; TY_NO_SITE: nobody. */
+static ty_status
+find_rival(ty_ladder *l, uint32_t i, uint32_t *rival)
+{
+	const ty_disc *home = &l->near.discs[i];
+	double least = INFINITY;
+	ty_status status = TY_OK;
+
+	*rival = TY_NO_SITE;
+	for (uint32_t ring = 0; status == TY_OK && ring <= RIVALS_RING && has_seat(l, i); ring++)
+	{
+		status = ty_squares_ring(&l->homes, (ty_point){home->x, home->y}, ring);
+		for (size_t k = 0; status == TY_OK && k < l->homes.found_count; k++)
+		{
+			uint32_t j = l->homes.found[k];
+			double dx = l->body[j].box.x - l->body[i].box.x, dy = l->body[j].box.y - l->body[i].box.y;
+			double apart = 0.5 * (l->sites[i].least.width + l->sites[j].least.width) + l->target;
+			double squared = dx * dx + dy * dy;
+
+			if (j == i || squared > ONE_SEAT * apart * (ONE_SEAT * apart) || !has_seat(l, j))
+				continue;
+			if ((squared < least || (squared == least && j < *rival)) && ty_may_join(l, i, j))
+			{
+				least = squared;
+				*rival = j;
+			}
+		}
+	}
 	return status;
 }
 
@@ -294,12 +364,16 @@ ty_thin_cells(ty_ladder *l)
 
 		if (ty_interrupted_at(l->env, number))
 			status = TY_INTERRUPTED;
-		/* the site, and what it becomes by being joined, until that has room */
-		while (status == TY_OK && i != TY_NO_SITE && !room)
+		/* the site, and what it becomes by being joined, until that has room to itself */
+		for (uint32_t rival = i; status == TY_OK && i != TY_NO_SITE && rival != TY_NO_SITE;)
 		{
 			status = look_for_room(l, i, &around, &room);
 			if (status == TY_OK && !room)
 				status = give_up(l, i, &i);
+			else if (status == TY_OK)
+				status = find_rival(l, i, &rival);
+			if (status == TY_OK && room && rival != TY_NO_SITE)
+				status = ty_join_sites(l, i, rival, TY_NO_SITE, &i);
 		}
 	}
 	l->unmet = false;

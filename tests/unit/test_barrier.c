@@ -248,7 +248,7 @@ as_if_every_segment_were_tried(void)
 	random_state random = random_seed(2);
 	const size_t sizes[] = {41, 60, 200, 1000, MOST_POINTS};
 	const double sides[] = {30, 1000, (double) (1 << 20), (double) SIDE};
-	size_t crossed = 0, asked = 0;
+	size_t crossed = 0, asked = 0, by_squares = 0;
 
 	for (size_t k = 0; k < 20; k++)
 	{
@@ -276,11 +276,15 @@ as_if_every_segment_were_tried(void)
 			CHECK(ty_barriers_cross(&barriers, a, b) == expected, "set %zu: (%d %d, %d %d), expected %d", k, a.x, a.y,
 				  b.x, b.y, expected);
 			crossed += expected;
+			by_squares += ty_box_squares_serve(&barriers.squares, a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y,
+											   a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y);
 			asked++;
 		}
 		free_both(&lines, &barriers);
 	}
 	CHECK(crossed > asked / 10 && crossed < asked - asked / 10, "%zu of %zu crossed", crossed, asked);
+	CHECK(by_squares > asked / 10 && by_squares < asked / 2, "%zu of %zu were looked for in squares", by_squares,
+		  asked);
 }
 
 /* Lines that go far beyond the grid: what crosses clearly still does, and nothing else. */
