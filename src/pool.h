@@ -37,7 +37,14 @@ typedef struct ty_pools
 {
 	ty_pool *first;
 	ty_pool *current; /* the one that was used last; NULL when it is gone */
+	MemoryContextCallback on_reset;
 } ty_pools;
+
+/*
+ * An empty list, which is memory of this context. Where that is gone before the pools are, as under an extension that
+ * calls aggregates by itself, they are in no list from then on.
+ */
+extern void ty_pools_begin(ty_pools *pools, MemoryContext context);
 
 /* An empty pool in the context, in no list. */
 extern ty_pool *ty_pool_new(MemoryContext context);
