@@ -7,8 +7,8 @@
 #include "backend.h"
 
 /*
- * The first buildings lie behind the pool, in one piece of this size: where rows come sorted by group, each group of ten
- * has a pool for itself.
+ * The first buildings lie behind the pool, in one piece of this size: where rows come sorted by group, each group has a
+ * pool for itself, of which there may be 100 000 one after the other.
  */
 #define POOL_SIZE 1024
 #define FIRST_BUILDINGS ((POOL_SIZE - offsetof(ty_pool, first)) / sizeof(ty_building))
