@@ -145,6 +145,7 @@ ty_enter_site(ty_ladder *l, uint32_t i)
 	ty_vicinity_insert(&l->near, i, l->place[i].home, reach_of(l, i));
 	if (l->homes.env != NULL)
 		ty_squares_insert(&l->homes, i, l->place[i].home);
+	ty_keep_in_bound(l, i); /* its row may have been moved farther than this one may be */
 	return status;
 }
 

@@ -309,6 +309,7 @@ go_home(ty_ladder *l, uint32_t i)
 	{
 		l->place[i].moved = (ty_point){rest.x + share * (moved.x - rest.x), rest.y + share * (moved.y - rest.y)};
 		ty_move_box(l, i);
+		ty_keep_in_bound(l, i);
 		if (has_room(l, i, &obstacle))
 			return;
 		share = 0.5 * (share + 1);
