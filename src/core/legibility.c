@@ -704,6 +704,7 @@ free_ladder(ty_ladder *l)
 	ty_release(l->env, l->segments.number);
 	ty_release(l->env, l->segments.distance);
 	ty_release(l->env, l->asking.heap);
+	ty_release(l->env, l->around.x);
 	ty_release(l->env, l->next);
 	ty_release(l->env, l->listed);
 	ty_release(l->env, l->degree);

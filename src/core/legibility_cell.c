@@ -53,24 +53,15 @@ share_within(ty_point way, double bound)
 
 /* ---- the disc ---- */
 
-/* Segments near a home, counted from there: from (x, y) by (dx, dy). */
-typedef struct surroundings
-{
-	size_t count, capacity;
-	float *x, *y, *dx, *dy;
-	float *inverse; /* of the squared length; 0 where there is none */
-	float *squared; /* distance from a place */
-} surroundings;
-
 static ty_status
-make_room(const ty_environment *env, surroundings *s, size_t count)
+make_room(const ty_environment *env, ty_surroundings *s, size_t count)
 {
 	size_t capacity = 2 * count;
 
 	if (count <= s->capacity)
 		return TY_OK;
 	ty_release(env, s->x);
-	*s = (surroundings){.x = ty_allocate_array(env, 6 * capacity, sizeof *s->x)};
+	*s = (ty_surroundings){.x = ty_allocate_array(env, 6 * capacity, sizeof *s->x)};
 	if (s->x == NULL)
 		return TY_NO_MEMORY;
 	s->capacity = capacity;
@@ -82,14 +73,16 @@ make_room(const ty_environment *env, surroundings *s, size_t count)
 	return TY_OK;
 }
 
-/* The segments that have been listed. */
+/* Counts the segments that have been listed from the home of the site, which comes to be that of the surroundings. */
 static ty_status
-survey(ty_ladder *l, uint32_t i, surroundings *s)
+survey(ty_ladder *l, uint32_t i)
 {
 	const ty_point home = l->sites[i].home;
+	ty_surroundings *s = &l->around;
 	ty_status status = make_room(l->env, s, l->line_count);
 
 	s->count = 0;
+	s->home = home;
 	for (size_t k = 0; status == TY_OK && k < l->line_count; k++)
 	{
 		ty_point a, b;
@@ -109,7 +102,7 @@ survey(ty_ladder *l, uint32_t i, surroundings *s)
 
 /* the vector from the place to the nearest point of a segment */
 static inline float
-way_to_segment(const surroundings *s, size_t k, float x, float y, float *way_y)
+way_to_segment(const ty_surroundings *s, size_t k, float x, float y, float *way_y)
 {
 	float from_x = s->x[k] - x, from_y = s->y[k] - y;
 	float share = -(from_x * s->dx[k] + from_y * s->dy[k]) * s->inverse[k];
@@ -122,7 +115,7 @@ way_to_segment(const surroundings *s, size_t k, float x, float y, float *way_y)
 
 /* How near the nearest segment comes to the place, and the unit vector away from there. */
 static double
-nearest_segment(const surroundings *s, ty_point place, ty_point *away)
+nearest_segment(const ty_surroundings *s, ty_point place, ty_point *away)
 {
 	float x = (float) place.x, y = (float) place.y, least = INFINITY;
 	size_t nearest = 0;
@@ -152,9 +145,8 @@ nearest_segment(const surroundings *s, ty_point place, ty_point *away)
 	return distance;
 }
 
-/* Whether a segment lies between home and the place. */
-static bool
-is_behind(const surroundings *s, ty_point place)
+bool
+ty_is_behind(const ty_surroundings *s, ty_point place)
 {
 	float x = (float) place.x, y = (float) place.y;
 	int crossed = 0;
@@ -162,17 +154,20 @@ is_behind(const surroundings *s, ty_point place)
 	for (size_t k = 0; k < s->count; k++)
 	{
 		float home_side = s->y[k] * s->dx[k] - s->x[k] * s->dy[k], way = x * s->dy[k] - y * s->dx[k];
-		float side = home_side + way, from = x * s->y[k] - y * s->x[k], to = from + (x * s->dy[k] - y * s->dx[k]);
+		float from = x * s->y[k] - y * s->x[k];
+		/* both below 0 where the ends of each are on different sides of the other */
+		float sides = home_side * (home_side + way), ends = from * (from + way), larger = sides > ends ? sides : ends;
 
-		crossed |= ((home_side > 0) != (side > 0)) & ((from > 0) != (to > 0));
+		crossed |= larger < 0 ? 1 : 0;
 	}
 	return crossed != 0;
 }
 
 /* Whether the disc that is as wide as the site, as small as it may become, comes to a place with room for it. */
 static bool
-disc_finds_room(const ty_ladder *l, uint32_t i, const surroundings *s, ty_point from, double bound)
+disc_finds_room(const ty_ladder *l, uint32_t i, ty_point from, double bound)
 {
+	const ty_surroundings *s = &l->around;
 	double radius = 0.5 * l->sites[i].least.width;
 	progress p = {INFINITY, INFINITY};
 	ty_point place = from, away = {1, 0};
@@ -182,7 +177,7 @@ disc_finds_room(const ty_ladder *l, uint32_t i, const surroundings *s, ty_point 
 		double lack = radius + l->line_target - nearest_segment(s, place, &away), share;
 		ty_point way;
 
-		if (!ty_is_line_conflict(l, lack) && !is_behind(s, place))
+		if (!ty_is_line_conflict(l, lack) && !ty_is_behind(s, place))
 			return true;
 		if (is_stagnant(&p, lack))
 			return false;
@@ -191,7 +186,7 @@ disc_finds_room(const ty_ladder *l, uint32_t i, const surroundings *s, ty_point 
 		for (int turn = 0; turn <= TURNS_BACK; turn++, share *= 0.5)
 		{
 			place = (ty_point){from.x + share * way.x, from.y + share * way.y};
-			if (!is_behind(s, place))
+			if (!ty_is_behind(s, place))
 				break;
 		}
 	}
@@ -272,7 +267,7 @@ meet_lines(ty_ladder *l, uint32_t i)
 
 /* Finds out whether the site has room, and so meets its lines; if it has none they stay listed. */
 static ty_status
-look_for_room(ty_ladder *l, uint32_t i, surroundings *around, bool *room)
+look_for_room(ty_ladder *l, uint32_t i, bool *room)
 {
 	const ty_site *s = &l->sites[i];
 	double factor = s->full.length > 0 ? s->least.length / s->full.length : 1;
@@ -286,8 +281,8 @@ look_for_room(ty_ladder *l, uint32_t i, surroundings *around, bool *room)
 	status = ty_list_lines(l, i,
 						   bound + 2 * sqrt(from.x * from.x + from.y * from.y) + 0.5 * s->least.width + l->line_target);
 	if (status == TY_OK)
-		status = survey(l, i, around);
-	if (status != TY_OK || !disc_finds_room(l, i, around, from, bound))
+		status = survey(l, i);
+	if (status != TY_OK || !disc_finds_room(l, i, from, bound))
 		return status;
 	status = meet_lines(l, i);
 	*room = l->body[i].clear = status == TY_OK && take_seat(l, i);
@@ -352,7 +347,6 @@ give_up(ty_ladder *l, uint32_t i, uint32_t *kept)
 ty_status
 ty_thin_cells(ty_ladder *l)
 {
-	surroundings around = {0};
 	ty_status status = TY_OK;
 
 	if (!l->unmet)
@@ -367,7 +361,7 @@ ty_thin_cells(ty_ladder *l)
 		/* the site, and what it becomes by being joined, until that has room to itself */
 		for (uint32_t rival = i; status == TY_OK && i != TY_NO_SITE && rival != TY_NO_SITE;)
 		{
-			status = look_for_room(l, i, &around, &room);
+			status = look_for_room(l, i, &room);
 			if (status == TY_OK && !room)
 				status = give_up(l, i, &i);
 			else if (status == TY_OK)
@@ -377,7 +371,7 @@ ty_thin_cells(ty_ladder *l)
 		}
 	}
 	l->unmet = false;
-	ty_release(l->env, around.x);
+	l->around.count = 0;
 	ty_vicinity_fit(&l->near);
 	return status;
 }

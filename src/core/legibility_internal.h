@@ -31,6 +31,16 @@ typedef struct ty_asking
 	ty_neighbour last; /* who was asked */
 } ty_asking;
 
+/* Segments near a home, counted from there, in single precision: from (x, y) by (dx, dy). */
+typedef struct ty_surroundings
+{
+	ty_point home;
+	size_t count, capacity;
+	float *x, *y, *dx, *dy;
+	float *inverse; /* of the squared length; 0 where there is none */
+	float *squared; /* distance from a place */
+} ty_surroundings;
+
 /* What of a site tells whether another is too near: no more than a cache line, since millions of pairs are looked at. */
 typedef struct ty_body
 {
@@ -79,9 +89,10 @@ typedef struct ty_ladder
 	const uint32_t *line_list;	/* [line_count] segments in reach of the same site, where it is by_line */
 	const float *line_distance; /* ... from the nearest to its home on */
 	size_t line_count;
-	double line_limit; /* there are no others as near to its home as this */
-	uint32_t *active;  /* [active_count] sites that may be in a conflict: at least one of the two of each */
-	uint32_t *next;	   /* those of the next round */
+	ty_surroundings around; /* the site whose room was looked for last */
+	double line_limit;		/* there are no others as near to its home as this */
+	uint32_t *active;		/* [active_count] sites that may be in a conflict: at least one of the two of each */
+	uint32_t *next;			/* those of the next round */
 	size_t active_count, next_count;
 	bool *listed;			/* [n] stands in next */
 	uint32_t *degree;		/* [n] in how many conflicts it is, while some are being resolved */
@@ -219,6 +230,8 @@ ty_play(const ty_ladder *l, const ty_site *s)
 
 /* legibility_thin.c: joins or hides where so many sites crowd that nothing else can help. */
 ty_status ty_thin_out(ty_ladder *l);
+/* legibility_cell.c: whether a segment lies between the home of the surroundings and a place, counted from there. */
+bool ty_is_behind(const ty_surroundings *around, ty_point place);
 /* legibility_cell.c: joins what finds no room between lines; all sites meet theirs. */
 ty_status ty_thin_cells(ty_ladder *l);
 /* legibility_settle.c: rounds of shrinking and displacing; below: also below true size. */

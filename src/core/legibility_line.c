@@ -367,6 +367,9 @@ is_on_its_side(const ty_ladder *l, uint32_t i, ty_neighbour n)
 
 	if (l->sites[i].group != l->sites[n.number].group)
 		return false;
+	if (l->around.home.x == from.x && l->around.home.y == from.y &&
+		ty_is_behind(&l->around, (ty_point){to.x - from.x, to.y - from.y}))
+		return false;
 	if (l->by_line[i] && ty_barrier_segments_cross(l->rules->lines, l->line_list, l->line_count, from, to))
 		return false;
 	if (l->by_line[i] && n.squared * (1 + 1e-6) < l->line_limit * l->line_limit)
