@@ -123,6 +123,14 @@ merge_lists(uint32_t *next, uint32_t a, uint32_t b)
 	return head;
 }
 
+/* The buildings of a site's members, which lie anywhere in memory, come all at a time. */
+static void
+fetch_members(const joining *j, uint32_t site)
+{
+	for (uint32_t rank = j->first[site]; rank != NO_RANK; rank = j->next[rank])
+		__builtin_prefetch(&j->group->buildings[j->group->order[rank]]);
+}
+
 /* Sums up the members of a site, by rank, unless that has been done. */
 static void
 sum_up(const joining *j, uint32_t site)
@@ -162,6 +170,8 @@ joint_position(const joining *j, uint32_t kept, uint32_t gone)
 {
 	ty_sum *sum = &j->sum[kept];
 
+	fetch_members(j, kept);
+	fetch_members(j, gone);
 	sum_up(j, kept);
 	sum_up(j, gone);
 	sum->x += j->sum[gone].x;
@@ -212,11 +222,7 @@ join(void *context, uint32_t kept, uint32_t gone, uint32_t in_place, ty_site *si
 	j->group->position[rank] = position;
 	p->first = p->count = 0;
 	for (uint32_t r = rank; r != NO_RANK; r = j->next[r])
-	{
-		/* they lie anywhere in memory, and come all at a time */
-		__builtin_prefetch(&j->group->buildings[j->group->order[r]]);
 		j->members[p->count++] = j->group->order[r];
-	}
 	status = ty_describe(j->env, j->group, j->members, rank, p);
 	j->handed[kept] = handed;
 	if (handed && !p->kept)
