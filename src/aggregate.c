@@ -523,10 +523,14 @@ static combine_call *
 combine_call_of(FunctionCallInfo fcinfo)
 {
 	FmgrInfo *function = fcinfo->flinfo;
+	combine_call *call = function->fn_extra;
 
-	if (function->fn_extra == NULL)
-		function->fn_extra = MemoryContextAllocZero(function->fn_mcxt, sizeof(combine_call));
-	return function->fn_extra;
+	if (likely(call != NULL))
+		return call;
+	call = MemoryContextAllocZero(function->fn_mcxt, sizeof(combine_call));
+	ty_pools_begin(&call->pools, function->fn_mcxt);
+	function->fn_extra = call;
+	return call;
 }
 
 /* The barriers that b has or, where a worker sent their hash alone, that the plan has; NULL for none. */

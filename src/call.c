@@ -77,6 +77,7 @@ ty_call_of(FunctionCallInfo fcinfo, int first, int given, int geometry, bool wit
 	call->given = Min(PG_NARGS() - first, given);
 	find_constancy(call, fcinfo, first);
 	ty_srid_cache_begin(&call->srids, function->fn_oid, geometry, function->fn_mcxt);
+	ty_pools_begin(&call->pools, function->fn_mcxt);
 	function->fn_extra = call;
 	return call;
 }

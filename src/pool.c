@@ -7,8 +7,8 @@
 #include "backend.h"
 
 /*
- * The first buildings lie behind the pool, in one piece of this size: where rows come sorted by group, each group of ten
- * has a pool for itself.
+ * The first buildings lie behind the pool, in one piece of this size: where rows come sorted by group, each group has a
+ * pool for itself, of which there may be 100 000 one after the other.
  */
 #define POOL_SIZE 1024
 #define FIRST_BUILDINGS ((POOL_SIZE - offsetof(ty_pool, first)) / sizeof(ty_building))
@@ -30,12 +30,34 @@ ty_pool_new(MemoryContext context)
 	return pool;
 }
 
-/* A pool that is gone with its context leaves the list, which lives longer. */
+/* Pools whose list goes stay where they are. */
+static void
+forget_list(void *argument)
+{
+	ty_pools *pools = argument;
+
+	for (ty_pool *pool = pools->first; pool != NULL; pool = pool->next)
+		pool->list = NULL;
+}
+
+void
+ty_pools_begin(ty_pools *pools, MemoryContext context)
+{
+	pools->first = pools->current = NULL;
+	pools->on_reset.func = forget_list;
+	pools->on_reset.arg = pools;
+	MemoryContextRegisterResetCallback(context, &pools->on_reset);
+}
+
+/* A pool that is gone with its context leaves the list, which mostly lives longer. */
 static void
 forget(void *argument)
 {
-	ty_pool *pool = argument, **link = &pool->list->first;
+	ty_pool *pool = argument, **link;
 
+	if (pool->list == NULL)
+		return;
+	link = &pool->list->first;
 	while (*link != pool)
 		link = &(*link)->next;
 	*link = pool->next;

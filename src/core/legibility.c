@@ -20,14 +20,18 @@
 
 #define SLACK 0.01		  /* of the gap: what is aimed at beyond it, so that pushing comes to an end */
 #define ROUNDING_STEPS 16 /* units in the last place of coordinates and sides: what drawing may round away */
-/* of pushing before the next step of the ladder; with 3 of both 2 % more sites are left, in a quarter more time */
-#define ROUNDS 2
-#define ROUNDS_BELOW 1 /* the same below true size */
-#define BY_LINES 2	   /* times as many where there are lines: few sites are left to push, and 4 % more in the end */
-#define NEAR_EACH 32   /* sites that are kept in mind; one in a town has 20 near it, of which 2 are in its way */
-#define LINES_EACH 80  /* two for a segment that is kept in mind; in a town with all its ways there are 20 in reach */
-#define SQUARE 2	   /* times as wide as what a site takes up: neighbours are mostly found in nine squares */
-#define SPARSE 64	   /* of so many sites one in a conflict is few */
+/*
+ * Rounds of pushing before the next step of the ladder, and half as many below true size. More leave more sites: of a
+ * million buildings three and two 2 % more than two and one, in a quarter more time. So few sites have more of them; and
+ * where none are joined, since there each that finds no room is lost from the map.
+ */
+#define LEAST_ROUNDS 2
+#define MOST_ROUNDS 8
+#define PATIENCE 262144 /* sites that are looked at in those rounds, but for the least and the most */
+#define NEAR_EACH 32	/* sites that are kept in mind; one in a town has 20 near it, of which 2 are in its way */
+#define LINES_EACH 80	/* two for a segment that is kept in mind; in a town with all its ways there are 20 in reach */
+#define SQUARE 2		/* times as wide as what a site takes up: neighbours are mostly found in nine squares */
+#define SPARSE 64		/* of so many sites one in a conflict is few */
 
 /* ---- sites ---- */
 
@@ -53,10 +57,17 @@ half_diagonal(ty_sides sides)
 	return 0.5 * sqrt(sides.width * sides.width + sides.length * sides.length);
 }
 
+/* how much of its shift a site of this length has */
+static double
+share_of_shift(const ty_site *s, double length)
+{
+	return s->size >= 2 || !(s->full.length > 0) ? 1 : length / s->full.length;
+}
+
 ty_point
 ty_site_centre(const ty_site *s)
 {
-	double factor = s->size >= 2 || !(s->full.length > 0) ? 1 : ty_site_sides(s).length / s->full.length;
+	double factor = share_of_shift(s, ty_site_sides(s).length);
 
 	return (ty_point){s->home.x + s->moved.x + factor * s->shift.x, s->home.y + s->moved.y + factor * s->shift.y};
 }
@@ -66,7 +77,8 @@ ty_place_box(ty_ladder *l, uint32_t i)
 {
 	const ty_site *s = &l->sites[i];
 	ty_sides sides = ty_site_sides(s);
-	double factor = s->size >= 2 || !(s->full.length > 0) ? 1 : sides.length / s->full.length;
+	bool shifted = s->shift.x != 0 || s->shift.y != 0;
+	double factor = shifted ? share_of_shift(s, sides.length) : 0;
 	const ty_place *p = &l->place[i];
 	ty_oblong box = {p->home.x + p->moved.x + factor * s->shift.x,
 					 p->home.y + p->moved.y + factor * s->shift.y,
@@ -79,7 +91,7 @@ ty_place_box(ty_ladder *l, uint32_t i)
 						   .radius = half_diagonal(sides),
 						   .drawn = s->state == TY_DRAWN,
 						   .fixed = s->fixed,
-						   .shifted = s->shift.x != 0 || s->shift.y != 0,
+						   .shifted = shifted,
 						   .railed = ty_on_rail(s),
 						   .stages = (uint8_t) (s->size > 1 ? 2 : s->size > 0)};
 }
@@ -133,6 +145,7 @@ ty_enter_site(ty_ladder *l, uint32_t i)
 	ty_vicinity_insert(&l->near, i, l->place[i].home, reach_of(l, i));
 	if (l->homes.env != NULL)
 		ty_squares_insert(&l->homes, i, l->place[i].home);
+	ty_keep_in_bound(l, i); /* its row may have been moved farther than this one may be */
 	return status;
 }
 
@@ -538,18 +551,29 @@ activate_all(ty_ladder *l)
 	ty_next_round(l);
 }
 
+static int
+rounds_to_settle(const ty_ladder *l)
+{
+	size_t rounds = PATIENCE / (l->active_count + 1);
+
+	if (l->rules->join == NULL || rounds > MOST_ROUNDS)
+		return MOST_ROUNDS;
+	return rounds < LEAST_ROUNDS ? LEAST_ROUNDS : (int) rounds;
+}
+
 /* Until no active site is in a conflict. */
 static ty_status
 climb(ty_ladder *l, uint8_t *touched)
 {
-	int factor = l->rules->lines == NULL ? 1 : BY_LINES;
 	ty_status status = TY_OK;
 
 	while (status == TY_OK && l->active_count > 0)
 	{
-		status = ty_settle(l, factor * ROUNDS, false);
+		int rounds = rounds_to_settle(l);
+
+		status = ty_settle(l, rounds, false);
 		if (status == TY_OK)
-			status = ty_settle(l, factor * ROUNDS_BELOW, true);
+			status = ty_settle(l, rounds / 2, true);
 		if (status == TY_OK)
 			status = collect_conflicts(l);
 		if (status != TY_OK || l->conflict_count == 0)

@@ -20,12 +20,11 @@ growth(const ty_ladder *l, uint32_t i, int floor_size)
 {
 	const ty_site *s = &l->sites[i];
 	const ty_sides *least = floor_size >= 1 ? &s->own : &s->least;
-	ty_sides now;
+	const ty_oblong *now = &l->body[i].box;
 
 	if (l->body[i].fixed || l->body[i].stages <= floor_size)
 		return 0;
-	now = ty_site_sides(s);
-	return now.width * now.length / (least->width * least->length);
+	return 4 * now->half_width * now->half_length / (least->width * least->length);
 }
 
 /* The size below which a site that was moved would stand too far from home for its longer side. */
@@ -310,6 +309,7 @@ go_home(ty_ladder *l, uint32_t i)
 	{
 		l->place[i].moved = (ty_point){rest.x + share * (moved.x - rest.x), rest.y + share * (moved.y - rest.y)};
 		ty_move_box(l, i);
+		ty_keep_in_bound(l, i);
 		if (has_room(l, i, &obstacle))
 			return;
 		share = 0.5 * (share + 1);

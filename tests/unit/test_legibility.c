@@ -17,6 +17,7 @@
 #include <string.h>
 
 #define TOLERANCE 1e-6
+#define ROUNDING 1e-5 /* metres: room for it is part of the gap */
 #define GROUPS 100000
 #define MOST 40
 #define LINES 3
@@ -184,6 +185,23 @@ check_kept(const set *s, const ty_result *r)
 					(q->area <= b->area * (1 + TOLERANCE) || q->width <= s->p.min_side * (1 + TOLERANCE));
 		}
 		CHECK(drawn, "%s: kept building %zu is not in place and in size", s->name, i);
+	}
+}
+
+/* Nobody is farther from home than the gap or half its longer side; beside a line, than takes it off the symbol. */
+static void
+check_moves(const set *s, const ty_result *r)
+{
+	for (size_t k = 0; r->sites != NULL && k < r->count; k++)
+	{
+		const ty_site *site = &r->sites[k];
+		double moved = sqrt(site->moved.x * site->moved.x + site->moved.y * site->moved.y);
+		double bound = fmax(s->p.min_gap, 0.5 * ty_site_sides(site).length);
+
+		if (s->barred)
+			bound = fmax(bound, s->p.min_gap + 0.5 * s->p.barrier_width + 0.5 * site->least.length);
+		CHECK(site->state != TY_DRAWN || moved <= bound + ROUNDING, "%s: %zu is %.17g from home, not %.17g", s->name, k,
+			  moved, bound);
 	}
 }
 
@@ -402,6 +420,7 @@ random_small_groups_have_no_violation(void)
 		check_lines(&s, &result);
 		check_sizes(&s, &result);
 		check_kept(&s, &result);
+		check_moves(&s, &result);
 		check_nobody_lost(&result, s.n, s.name);
 		ty_result_free(&ty_plain_environment, &result);
 		free_group(&s);
