@@ -599,6 +599,61 @@ at_last_two_are_joined(void)
 	ty_result_free(&ty_plain_environment, &r);
 }
 
+/* ---- cells between lines ---- */
+
+static ty_building
+house_at(double x, double y)
+{
+	ty_building b = house(x, 400);
+
+	b.y = y;
+	return b;
+}
+
+/* That those drawn between two columns have so many members. */
+static void
+check_cell(const ty_result *r, double low, double high, uint32_t members)
+{
+	uint32_t found = 0;
+
+	for (size_t i = 0; i < r->count; i++)
+		if (r->placeholders[i].x > low && r->placeholders[i].x < high)
+			found += r->placeholders[i].count;
+	CHECK(found == members, "%u members between %g and %g", found, low, high);
+}
+
+/*
+ * With 35 for a side and 20 for a gap a cell must be 75 wide. Of streets at 0, 60, 260 and a yard from 400 to 500 the
+ * first cell holds nobody, the second two, who are pushed off the streets, and the yard one in its middle.
+ */
+static void
+cells_without_room_hand_on_their_members(void)
+{
+	const ty_point streets[3][2] = {{{0, -900}, {0, 900}}, {{60, -900}, {60, 900}}, {{260, -900}, {260, 900}}};
+	const ty_point yard[5] = {{400, 0}, {500, 0}, {500, 80}, {400, 80}, {400, 0}};
+	ty_building b[] = {house_at(30, 0),	 house_at(25, 30),	house_at(35, 60), house_at(80, 10),
+					   house_at(240, 0), house_at(420, 38), house_at(480, 42)};
+	ty_parameters p = at_100000();
+	ty_barrier_lines lines;
+	ty_result r;
+
+	ty_barrier_lines_begin(&lines, &ty_plain_environment);
+	for (int k = 0; k < 3; k++)
+		NEED(ty_barrier_lines_add(&lines, streets[k], sizeof(ty_point), 2) == TY_OK, "street %d", k);
+	NEED(ty_barrier_lines_add(&lines, yard, sizeof(ty_point), 5) == TY_OK, "yard");
+	NEED(ty_barrier_lines_end(&lines) == TY_OK, "lines");
+	NEED(ty_typify(&ty_plain_environment, &(ty_input){.buildings = b, .n = 7, .barriers = &lines}, &p, &r) == TY_OK,
+		 "typify");
+	CHECK(r.count == 3 && r.hidden == 0, "%zu are left, %zu hidden", r.count, r.hidden);
+	check_cell(&r, 97, 160, 4);
+	check_cell(&r, 160, 223, 1);
+	check_cell(&r, 437, 463, 2);
+	check_apart(&r, &p, "cells");
+	check_nobody_lost(&r, 7, "cells");
+	ty_result_free(&ty_plain_environment, &r);
+	ty_barrier_lines_free(&lines);
+}
+
 /* ---- sites of groups that are not joined ---- */
 
 static ty_site
@@ -709,6 +764,7 @@ main(int argc, char **argv)
 	RUN(nobody_is_drawn_below_true_size_while_it_can_move);
 	RUN(then_it_is_shrunk_below_true_size);
 	RUN(at_last_two_are_joined);
+	RUN(cells_without_room_hand_on_their_members);
 	RUN(sites_of_different_groups_are_hidden_last);
 	RUN(sites_of_one_group_go_back_to_where_they_were_apart);
 	RUN(fixed_sites_stay_and_the_others_yield);
