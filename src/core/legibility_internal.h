@@ -228,6 +228,14 @@ ty_play(const ty_ladder *l, const ty_site *s)
 	return play > least ? play : least;
 }
 
+/* legibility_resolve.c: lists in l->conflicts those of the active sites, each once. */
+ty_status ty_collect_conflicts(ty_ladder *l);
+/*
+ * Resolves the worst of these in every neighbourhood. What is active next is everybody who is in one. touched: [n], all
+ * 0 before and after.
+ */
+ty_status ty_resolve_worst(ty_ladder *l, uint8_t *touched);
+
 /* legibility_thin.c: joins or hides where so many sites crowd that nothing else can help. */
 ty_status ty_thin_out(ty_ladder *l);
 /* legibility_cell.c: whether a segment lies between the home of the surroundings and a place, counted from there. */
