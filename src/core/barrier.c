@@ -499,13 +499,20 @@ edge_passes(void *context, size_t thing)
 	return true;
 }
 
-/* The same search where squares serve: three times as quick for the edges of a mesh, which are short. */
+#define MOST_AT_ONCE 32
+
+/*
+ * The same search where squares serve: three times as quick for the edges of a mesh, which are short. Segments lie
+ * anywhere in memory: those of several boxes are called for at a time.
+ */
 static bool
 edge_passes_squares(const ty_barriers *barriers, edge *e)
 {
 	const ty_box_squares *squares = &barriers->squares;
 	uint32_t low_column = ty_square_column(squares, e->low.x), high_column = ty_square_column(squares, e->high.x);
 	uint32_t low_row = ty_square_column(squares, e->low.y), high_row = ty_square_column(squares, e->high.y);
+	uint32_t met[MOST_AT_ONCE];
+	int count = 0;
 
 	for (uint32_t row = low_row; row <= high_row; row++)
 		for (uint32_t column = low_column; column <= high_column; column++)
@@ -514,9 +521,21 @@ edge_passes_squares(const ty_barriers *barriers, edge *e)
 
 			ty_box_squares_at(squares, column, row, &from, &to);
 			for (uint32_t k = from; k < to; k++)
-				if (edge_may_meet(e, &barriers->boxes.box[squares->thing[k]]) && !edge_passes(e, squares->thing[k]))
+			{
+				uint32_t thing = squares->thing[k];
+
+				if (!edge_may_meet(e, &barriers->boxes.box[thing]))
+					continue;
+				if (count == MOST_AT_ONCE && !edge_passes(e, met[--count]))
 					return false;
+				__builtin_prefetch(&e->segments[(size_t) thing * TY_BOX_FAN]);
+				__builtin_prefetch(&e->segments[(size_t) thing * TY_BOX_FAN] + TY_BOX_FAN / 2);
+				met[count++] = thing;
+			}
 		}
+	while (count > 0)
+		if (!edge_passes(e, met[--count]))
+			return false;
 	return true;
 }
 
