@@ -25,6 +25,7 @@
  */
 #define LEAST_ROUNDS 2
 #define MOST_ROUNDS 8
+#define BY_LINES 2 /* times as many where there are lines: what has no room is gone by then, and rounds cost little */
 #define PATIENCE 262144 /* sites that are looked at in those rounds, but for the least and the most */
 #define NEAR_EACH 32	/* sites that are kept in mind; one in a town has 20 near it, of which 2 are in its way */
 #define LINES_EACH 80	/* two for a segment that is kept in mind; in a town with all its ways there are 20 in reach */
@@ -282,9 +283,9 @@ rounds_to_settle(const ty_ladder *l)
 {
 	size_t rounds = PATIENCE / (l->active_count + 1);
 
-	if (l->rules->join == NULL || rounds > MOST_ROUNDS)
-		return MOST_ROUNDS;
-	return rounds < LEAST_ROUNDS ? LEAST_ROUNDS : (int) rounds;
+	rounds = rounds < LEAST_ROUNDS ? LEAST_ROUNDS : rounds;
+	rounds *= l->rules->lines == NULL ? 1 : BY_LINES;
+	return l->rules->join == NULL || rounds > MOST_ROUNDS ? MOST_ROUNDS : (int) rounds;
 }
 
 /* Until no active site is in a conflict. */
