@@ -265,8 +265,8 @@ ty_next_round(ty_ladder *l)
 
 /* ---- the ladder ---- */
 
-static void
-activate_all(ty_ladder *l)
+void
+ty_activate_all(ty_ladder *l)
 {
 	ty_next_round(l);
 	for (size_t i = 0; i < l->n; i++)
@@ -353,12 +353,12 @@ run(ty_ladder *l)
 		status = ty_thin_cells(l);
 	for (bool again = true, relented = false; status == TY_OK && again;)
 	{
-		activate_all(l);
+		ty_activate_all(l);
 		status = climb(l, touched);
 		if (status == TY_OK && !relented)
 			status = ty_relent(l);
 		relented = true;
-		activate_all(l);
+		ty_activate_all(l);
 		if (status == TY_OK)
 			status = ty_collect_conflicts(l);
 		again = l->conflict_count > 0;
@@ -466,20 +466,21 @@ measure_sites(ty_ladder *l)
 	return isfinite(4 * (place + largest + l->target)) ? TY_OK : TY_NOT_FINITE;
 }
 
-/* of the sites that are drawn, as small as they may become */
+/* of the sites as small as they may become: the square of the mean square root, which one giant does not matter to */
 static double
-mean_length(const ty_ladder *l)
+usual_length(const ty_ladder *l)
 {
-	double sum = 0;
+	double sum = 0, mean;
 	size_t count = 0;
 
 	for (size_t i = 0; i < l->n; i++)
 		if (l->sites[i].state == TY_DRAWN)
 		{
-			sum += l->sites[i].least.length;
+			sum += sqrt(l->sites[i].least.length);
 			count++;
 		}
-	return sum / (double) count;
+	mean = sum / (double) count;
+	return mean * mean;
 }
 
 static ty_status
@@ -491,7 +492,7 @@ enter_all(ty_ladder *l)
 	if (status == TY_OK)
 		status = ty_vicinity_begin(l->env, l->n, &l->near);
 	if (status == TY_OK && l->unmet)
-		status = ty_squares_begin(l->env, l->n, SQUARE * (mean_length(l) + l->target), &l->homes);
+		status = ty_squares_begin(l->env, l->n, SQUARE * (usual_length(l) + l->target), &l->homes);
 	for (size_t i = 0; status == TY_OK && i < l->n; i++)
 	{
 		l->start[i] = l->place[i].moved = l->sites[i].moved;

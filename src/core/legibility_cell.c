@@ -15,6 +15,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #define STEPS 16	  /* that are walked to find room; half as many save no time and lose 1 % of the sites */
 #define STAGNANT 0.97 /* share of what was lacking two steps before, above which a walk leads nowhere */
@@ -328,50 +329,115 @@ find_rival(ty_ladder *l, uint32_t i, uint32_t *rival)
 	return status;
 }
 
-/* Joins the site, which has no room, to the nearest. *kept: what is to be looked at next; TY_NO_SITE: nothing. */
-static ty_status
-give_up(ty_ladder *l, uint32_t i, uint32_t *kept)
-{
-	uint32_t nearest;
-	bool across;
-	ty_status status = ty_nearest_site(l, i, &nearest, &across);
+/* ---- sweeps ---- */
 
-	*kept = TY_NO_SITE;
-	if (status == TY_OK && nearest == TY_NO_SITE)
+/*
+ * What two sites have become is looked at again at once as long as it has few members, and else in the next sweep, and
+ * so is whoever would join it before: a cell with thousands of buildings and no room becomes one site two by two.
+ * Bit by bit it would be looked at with all its members each time; in sweeps alone most are looked at twice.
+ */
+#define FEW_MEMBERS 32
+#define MOST_SWEEPS 32 /* towns take some five; what is left then is left to the rounds */
+
+/* Where a site goes that has no room: to the nearest; TY_NO_SITE: it stands alone. in_place: as for ty_join_sites. */
+static ty_status
+find_refuge(ty_ladder *l, uint32_t i, uint32_t *refuge, uint32_t *in_place)
+{
+	bool across;
+	ty_status status = ty_nearest_site(l, i, refuge, &across);
+
+	*in_place = across ? *refuge : TY_NO_SITE;
+	return status;
+}
+
+/* Who is to be joined to the site, as it has no room, or not to itself; TY_NO_SITE: nobody. It may be hidden then. */
+static ty_status
+find_other(ty_ladder *l, uint32_t i, uint32_t *other, uint32_t *in_place)
+{
+	bool room;
+	ty_status status = look_for_room(l, i, &room);
+
+	*other = *in_place = TY_NO_SITE;
+	if (status == TY_OK)
+		status = room ? find_rival(l, i, other) : find_refuge(l, i, other, in_place);
+	if (status == TY_OK && !room && *other == TY_NO_SITE)
 		ty_hide_site(l, i);
-	else if (status == TY_OK)
-		status = ty_join_sites(l, i, nearest, across ? nearest : TY_NO_SITE, kept);
+	return status;
+}
+
+/*
+ * Looks at the site, and at what it becomes by being joined, until that has room to itself or is to wait for the next
+ * sweep. changed: [n] the sweep in which a site became another.
+ */
+static ty_status
+sweep_site(ty_ladder *l, uint32_t i, uint8_t sweep, uint8_t *changed)
+{
+	uint32_t other, in_place;
+	ty_status status;
+
+	while ((status = find_other(l, i, &other, &in_place)) == TY_OK && other != TY_NO_SITE)
+	{
+		bool waits = changed[other] == sweep && l->sites[other].weight > FEW_MEMBERS;
+
+		if (!waits)
+		{
+			status = ty_join_sites(l, i, other, in_place, &i);
+			changed[i] = sweep;
+		}
+		if (status != TY_OK)
+			return status;
+		if (waits || l->sites[i].weight > FEW_MEMBERS)
+		{
+			ty_activate(l, i);
+			break;
+		}
+	}
+	return status;
+}
+
+/* All that are left meet their lines. */
+static ty_status
+meet_all(ty_ladder *l)
+{
+	ty_status status = TY_OK;
+
+	for (size_t k = 0; status == TY_OK && k < l->active_count; k++)
+		if (ty_is_drawn(l, l->active[k]))
+			status = meet_lines(l, l->active[k]);
 	return status;
 }
 
 ty_status
 ty_thin_cells(ty_ladder *l)
 {
+	uint8_t *changed;
 	ty_status status = TY_OK;
 
 	if (!l->unmet)
 		return TY_OK;
-	for (uint32_t number = 0; status == TY_OK && number < l->n; number++)
+	changed = ty_allocate_array(l->env, l->n, sizeof *changed);
+	if (changed == NULL)
+		return TY_NO_MEMORY;
+	memset(changed, 0, l->n * sizeof *changed);
+	ty_activate_all(l);
+	for (uint8_t sweep = 1; status == TY_OK && sweep <= MOST_SWEEPS && l->active_count > 0; sweep++)
 	{
-		uint32_t i = ty_is_drawn(l, number) ? number : TY_NO_SITE;
-		bool room = false;
-
-		if (ty_interrupted_at(l->env, number))
-			status = TY_INTERRUPTED;
-		/* the site, and what it becomes by being joined, until that has room to itself */
-		for (uint32_t rival = i; status == TY_OK && i != TY_NO_SITE && rival != TY_NO_SITE;)
+		for (size_t k = 0; status == TY_OK && k < l->active_count; k++)
 		{
-			status = look_for_room(l, i, &room);
-			if (status == TY_OK && !room)
-				status = give_up(l, i, &i);
-			else if (status == TY_OK)
-				status = find_rival(l, i, &rival);
-			if (status == TY_OK && room && rival != TY_NO_SITE)
-				status = ty_join_sites(l, i, rival, TY_NO_SITE, &i);
+			uint32_t i = l->active[k];
+
+			if (ty_interrupted_at(l->env, k))
+				status = TY_INTERRUPTED;
+			else if (ty_is_drawn(l, i) && changed[i] != sweep)
+				status = sweep_site(l, i, sweep, changed);
 		}
+		ty_next_round(l);
 	}
+	if (status == TY_OK)
+		status = meet_all(l);
 	l->unmet = false;
 	l->around.count = 0;
 	ty_vicinity_fit(&l->near);
+	ty_release(l->env, changed);
 	return status;
 }

@@ -175,6 +175,8 @@ ty_status ty_nearest_site(ty_ladder *l, uint32_t i, uint32_t *nearest, bool *acr
 ty_status ty_find_near(ty_ladder *l, uint32_t i);
 /* What was listed by ty_activate becomes active. */
 void ty_next_round(ty_ladder *l);
+/* All that are drawn are active, and none is listed. */
+void ty_activate_all(ty_ladder *l);
 /* The site is looked at in the next round. */
 void ty_activate(ty_ladder *l, uint32_t i);
 
