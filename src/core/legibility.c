@@ -1,7 +1,8 @@
 /*
  * legibility.c - see legibility.h.
  *
- * The ladder of spec 4.4. Sites that may be in a conflict are active. In rounds (legibility_settle.c) every active
+ * The ladder of spec 4.4. What finds no room between lines is joined first (legibility_cell.c). Sites that may be in a
+ * conflict are active. In rounds (legibility_settle.c) every active
  * site looks at who is near: growth is taken back, then both are pushed apart, each by at most its bound; what is
  * left over is tried again with sizes below the true one. Of what no round has settled the worst conflicts, one in
  * a neighbourhood, are resolved by joining the two, and everything around is looked at again. Every time there is

@@ -654,73 +654,6 @@ cells_without_room_hand_on_their_members(void)
 	ty_barrier_lines_free(&lines);
 }
 
-/* ---- sites of groups that are not joined ---- */
-
-static ty_site
-square_site(double x, double side, uint32_t group, uint32_t weight)
-{
-	return (ty_site){.home = {x, 0},
-					 .ux = 1,
-					 .full = {side, side},
-					 .own = {side, side},
-					 .least = {10, 10},
-					 .weight = weight,
-					 .group = group,
-					 .row = TY_NO_ROW,
-					 .size = 2};
-}
-
-static void
-sites_of_different_groups_are_hidden_last(void)
-{
-	ty_site s[] = {square_site(0, 10, 0, 3), square_site(1, 10, 1, 2), square_site(2, 10, 2, 1)};
-	ty_legibility rules = {.gap = 8};
-	ty_status status = ty_make_legible(&ty_plain_environment, &rules, s, 3);
-
-	CHECK(status == TY_OK, "status %d", (int) status);
-	CHECK(s[0].state == TY_DRAWN && s[1].state == TY_HIDDEN && s[2].state == TY_DRAWN, "states %d %d %d",
-		  (int) s[0].state, (int) s[1].state, (int) s[2].state);
-}
-
-/* three of one group, just far enough apart as they came, pushed together from both sides */
-static void
-sites_of_one_group_go_back_to_where_they_were_apart(void)
-{
-	ty_site s[] = {square_site(0, 10, 0, 1), square_site(18, 10, 0, 1), square_site(36, 10, 0, 1),
-				   square_site(-12, 10, 1, 1), square_site(48, 10, 2, 1)};
-	ty_legibility rules = {.gap = 8};
-	ty_status status;
-
-	s[3].fixed = s[4].fixed = true;
-	status = ty_make_legible(&ty_plain_environment, &rules, s, 5);
-	CHECK(status == TY_OK && s[1].state == TY_DRAWN && s[3].state == TY_DRAWN && s[4].state == TY_DRAWN,
-		  "status %d, states %d %d %d", (int) status, (int) s[0].state, (int) s[1].state, (int) s[2].state);
-	for (int i = 1; i < 5; i++)
-		for (int j = 0; j < i; j++)
-			if (s[i].state == TY_DRAWN && s[j].state == TY_DRAWN)
-				CHECK(fabs(s[i].home.x + s[i].moved.x - s[j].home.x - s[j].moved.x) >= 18 * (1 - TOLERANCE) ||
-						  fabs(s[i].moved.y - s[j].moved.y) >= 18 * (1 - TOLERANCE),
-					  "%d and %d", i, j);
-}
-
-static void
-fixed_sites_stay_and_the_others_yield(void)
-{
-	ty_site s[] = {square_site(0, 30, 0, 1), square_site(20, 10, 1, 9), square_site(4, 30, 2, 1),
-				   square_site(40, 10, 3, 1)};
-	ty_legibility rules = {.gap = 8};
-	ty_status status;
-
-	s[0].fixed = s[2].fixed = true;
-	status = ty_make_legible(&ty_plain_environment, &rules, s, 4);
-	CHECK(status == TY_OK && s[0].state == TY_DRAWN && s[2].state == TY_DRAWN, "status %d", (int) status);
-	CHECK(s[0].moved.x == 0 && s[0].size == 2 && s[2].moved.x == 0 && s[2].size == 2, "moved %g, %g", s[0].moved.x,
-		  s[2].moved.x);
-	CHECK(s[1].state == TY_HIDDEN || s[1].home.x + s[1].moved.x > 19 + 8 + 4.9, "the second at %g",
-		  s[1].home.x + s[1].moved.x);
-	CHECK(s[3].state == TY_DRAWN, "the last is gone");
-}
-
 /* ---- crowds ---- */
 
 /* everybody at one place, and everybody close together */
@@ -765,9 +698,6 @@ main(int argc, char **argv)
 	RUN(then_it_is_shrunk_below_true_size);
 	RUN(at_last_two_are_joined);
 	RUN(cells_without_room_hand_on_their_members);
-	RUN(sites_of_different_groups_are_hidden_last);
-	RUN(sites_of_one_group_go_back_to_where_they_were_apart);
-	RUN(fixed_sites_stay_and_the_others_yield);
 	RUN(the_order_of_buildings_does_not_matter);
 	RUN(crowds_end_soon);
 	RUN(random_small_groups_have_no_violation);
