@@ -2,14 +2,14 @@
  * legibility.c - see legibility.h.
  *
  * The ladder of spec 4.4. What finds no room between lines is joined first (legibility_cell.c). Sites that may be in a
- * conflict are active. In rounds (legibility_settle.c) every active
- * site looks at who is near: growth is taken back, then both are pushed apart, each by at most its bound; what is
- * left over is tried again with sizes below the true one. Of what no round has settled the worst conflicts, one in
- * a neighbourhood, are resolved by joining the two, and everything around is looked at again. Every time there is
- * one site less to be in a conflict, so it ends. Where sites are not joined (a layer whose groups have been made
- * legible before) one of the two is hidden; two of one group go back to where they came from, where they were apart.
- * Where there are lines a site is joined to one on its side; if there is none, its members go to the nearest across.
- * At the end, what was moved or shrunk but need not have been is put back as far as there is room.
+ * conflict are active. In rounds (legibility_settle.c) every active site looks at who is near: growth is taken back,
+ * then both are pushed apart, each by at most its bound; what is left over is tried again with sizes below the true
+ * one. Of what no round has settled the worst conflicts, one in a neighbourhood, are resolved by joining the two, and
+ * everything around is looked at again. Every time there is one site less to be in a conflict, so it ends. Where sites
+ * are not joined (a layer whose groups have been made legible before) one of the two is hidden; two of one group go
+ * back to where they came from, where they were apart. Where there are lines a site is joined to one on its side; if
+ * there is none, its members go to the nearest across. At the end, what was moved or shrunk but need not have been is
+ * put back as far as there is room.
  */
 #include "legibility_internal.h"
 
