@@ -67,11 +67,13 @@ ty_state_new(ty_pool *pool, ty_variant *variant)
 	return s;
 }
 
+#define FETCHED 32 /* buildings: more than a small group has */
+
 /* Groups are read in any order too: all of a small one comes at once. */
 static inline void
 fetch(const ty_building *buildings, size_t count)
 {
-	const char *end = (const char *) (buildings + Min(count, 32));
+	const char *end = (const char *) (buildings + Min(count, FETCHED));
 
 	for (const char *at = (const char *) buildings; at < end; at += PG_CACHE_LINE_SIZE / 2)
 		__builtin_prefetch(at);

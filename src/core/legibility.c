@@ -21,7 +21,7 @@
 #define ROUNDING_STEPS 16 /* units in the last place of coordinates and sides: what drawing may round away */
 /*
  * Rounds of pushing before the next step of the ladder, and half as many below true size. More leave more sites: of a
- * million buildings three and two 2 % more than two and one, in a quarter more time. So few sites have more of them; and
+ * million buildings three and two 2 % more than two and one, in a tenth more time. So few sites have more of them; and
  * where none are joined, since there each that finds no room is lost from the map.
  */
 #define LEAST_ROUNDS 2

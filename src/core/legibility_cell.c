@@ -337,7 +337,7 @@ find_rival(ty_ladder *l, uint32_t i, uint32_t *rival)
  * Bit by bit it would be looked at with all its members each time; in sweeps alone most are looked at twice.
  */
 #define FEW_MEMBERS 32
-#define MOST_SWEEPS 32 /* towns take some five; what is left then is left to the rounds */
+#define MOST_SWEEPS 32 /* a town with all its streets takes 15; what is left then is left to the rounds */
 
 /* Where a site goes that has no room: to the nearest; TY_NO_SITE: it stands alone. in_place: as for ty_join_sites. */
 static ty_status
@@ -402,8 +402,12 @@ meet_all(ty_ladder *l)
 	ty_status status = TY_OK;
 
 	for (size_t k = 0; status == TY_OK && k < l->active_count; k++)
-		if (ty_is_drawn(l, l->active[k]))
+	{
+		if (ty_interrupted_at(l->env, k))
+			status = TY_INTERRUPTED;
+		else if (ty_is_drawn(l, l->active[k]))
 			status = meet_lines(l, l->active[k]);
+	}
 	return status;
 }
 

@@ -100,7 +100,7 @@ shrink_pair(ty_ladder *l, uint32_t a, uint32_t b, double lack, ty_point *n, int 
 /*
  * How much farther than they lack two are pushed apart as long as nobody is below its true size: successive
  * over-relaxation (Young 1954), which as there is best a little below 2. Of a million buildings at 1:75 000 settling
- * takes half the time and 1 % more sites are left; with 3 it is 3 % fewer. What went too far comes back in the end.
+ * takes half the time and 1 % more sites are left; with 3 it is 4 % fewer. What went too far comes back in the end.
  */
 #define PUSH 1.8
 #define STAGNANT 0.97 /* share of what was lacking a round before, above which another round is not worth its time */
