@@ -128,8 +128,6 @@ typedef struct ty_segments
 
 /* Lists those that come nearer to a place than limit. TY_TOO_MANY: they cannot be numbered. */
 ty_status ty_barrier_lines_near(const ty_barrier_lines *lines, ty_point p, double limit, ty_segments *near);
-/* The same in no particular order. */
-ty_status ty_barrier_lines_around(const ty_barrier_lines *lines, ty_point p, double limit, ty_segments *near);
 /* As ty_barrier_lines_cross, where no others can lie between. */
 bool ty_barrier_segments_cross(const ty_barrier_lines *lines, const uint32_t *segment, size_t count, ty_point a,
 							   ty_point b);

@@ -394,7 +394,7 @@ sort_within_bands(ty_segments *near)
 }
 
 ty_status
-ty_barrier_lines_around(const ty_barrier_lines *lines, ty_point p, double limit, ty_segments *near)
+ty_barrier_lines_near(const ty_barrier_lines *lines, ty_point p, double limit, ty_segments *near)
 {
 	const ty_point origin = lines->origin;
 	near_search search = {.lines = lines, .place = p, .limit = limit, .near = near, .status = TY_OK};
@@ -405,18 +405,10 @@ ty_barrier_lines_around(const ty_barrier_lines *lines, ty_point p, double limit,
 	search.box =
 		ty_box_of(p.x - limit - origin.x, p.y - limit - origin.y, p.x + limit - origin.x, p.y + limit - origin.y);
 	ty_boxes_search(&lines->boxes, may_be_near, list_of_run, &search);
-	return search.status;
-}
-
-ty_status
-ty_barrier_lines_near(const ty_barrier_lines *lines, ty_point p, double limit, ty_segments *near)
-{
-	ty_status status = ty_barrier_lines_around(lines, p, limit, near);
-
-	if (status == TY_OK && near->count > 1)
+	if (search.status == TY_OK && near->count > 1)
 	{
 		sort_by_band(near, (float) limit);
 		sort_within_bands(near);
 	}
-	return status;
+	return search.status;
 }

@@ -432,7 +432,7 @@ free_ladder(ty_ladder *l)
 	ty_release(l->env, l->segments.number);
 	ty_release(l->env, l->segments.distance);
 	ty_release(l->env, l->asking.heap);
-	ty_release(l->env, l->around.x);
+	ty_surroundings_free(&l->around);
 	ty_release(l->env, l->next);
 	ty_release(l->env, l->listed);
 	ty_release(l->env, l->degree);
@@ -493,7 +493,12 @@ enter_all(ty_ladder *l)
 	if (status == TY_OK)
 		status = ty_vicinity_begin(l->env, l->n, &l->near);
 	if (status == TY_OK && l->unmet)
-		status = ty_squares_begin(l->env, l->n, SQUARE * (usual_length(l) + l->target), &l->homes);
+	{
+		double length = usual_length(l);
+
+		ty_surroundings_begin(l->rules->lines, length + l->line_gap + l->line_target, &l->around);
+		status = ty_squares_begin(l->env, l->n, SQUARE * (length + l->target), &l->homes);
+	}
 	for (size_t i = 0; status == TY_OK && i < l->n; i++)
 	{
 		l->start[i] = l->place[i].moved = l->sites[i].moved;

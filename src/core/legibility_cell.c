@@ -13,7 +13,6 @@
  */
 #include "legibility_internal.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -32,6 +31,12 @@ typedef struct progress
 {
 	double last, before;
 } progress;
+
+static inline double
+length_of(double dx, double dy)
+{
+	return sqrt(dx * dx + dy * dy);
+}
 
 static inline bool
 is_stagnant(progress *p, double lack)
@@ -52,241 +57,168 @@ share_within(ty_point way, double bound)
 	return squared > bound * bound ? bound / sqrt(squared) : 1;
 }
 
-/* ---- the disc ---- */
+/* ---- the walk ---- */
 
-static ty_status
-make_room(const ty_environment *env, ty_surroundings *s, size_t count)
+/* What looks for room: a disc, or a rectangle, which stands where it begins, counted from home. */
+typedef struct walker
 {
-	size_t capacity = 2 * count;
+	ty_oblong box;
+	double radius; /* of the disc, or half the diagonal */
+	double bound;  /* how far it may go */
+	bool is_disc;
+} walker;
 
-	if (count <= s->capacity)
-		return TY_OK;
-	ty_release(env, s->x);
-	*s = (ty_surroundings){.x = ty_allocate_array(env, 6 * capacity, sizeof *s->x)};
-	if (s->x == NULL)
-		return TY_NO_MEMORY;
-	s->capacity = capacity;
-	s->y = s->x + capacity;
-	s->dx = s->y + capacity;
-	s->dy = s->dx + capacity;
-	s->inverse = s->dy + capacity;
-	s->squared = s->inverse + capacity;
-	return TY_OK;
-}
-
-/* Counts the segments that have been listed from the home of the site, which comes to be that of the surroundings. */
-static ty_status
-survey(ty_ladder *l, uint32_t i)
-{
-	const ty_point home = l->sites[i].home;
-	ty_surroundings *s = &l->around;
-	ty_status status = make_room(l->env, s, l->line_count);
-
-	s->count = 0;
-	s->home = home;
-	for (size_t k = 0; status == TY_OK && k < l->line_count; k++)
-	{
-		ty_point a, b;
-		float squared;
-
-		ty_segment_ends(l->rules->lines, l->line_list[k], &a, &b);
-		s->x[k] = (float) (a.x - home.x);
-		s->y[k] = (float) (a.y - home.y);
-		s->dx[k] = (float) (b.x - a.x);
-		s->dy[k] = (float) (b.y - a.y);
-		squared = s->dx[k] * s->dx[k] + s->dy[k] * s->dy[k];
-		s->inverse[k] = squared >= FLT_MIN ? 1 / squared : 0;
-		s->count++;
-	}
-	return status;
-}
-
-/* the vector from the place to the nearest point of a segment */
-static inline float
-way_to_segment(const ty_surroundings *s, size_t k, float x, float y, float *way_y)
-{
-	float from_x = s->x[k] - x, from_y = s->y[k] - y;
-	float share = -(from_x * s->dx[k] + from_y * s->dy[k]) * s->inverse[k];
-
-	share = share > 0 ? share : 0;
-	share = share < 1 ? share : 1;
-	*way_y = from_y + share * s->dy[k];
-	return from_x + share * s->dx[k];
-}
-
-/* How near the nearest segment comes to the place, and the unit vector away from there. */
 static double
-nearest_segment(const ty_surroundings *s, ty_point place, ty_point *away)
+lack_of(ty_ladder *l, const walker *w, ty_point moved, ty_point *away)
 {
-	float x = (float) place.x, y = (float) place.y, least = INFINITY;
-	size_t nearest = 0;
-	ty_point way;
-	float way_y;
-	double distance;
+	ty_oblong box = w->box;
 
-	for (size_t k = 0; k < s->count; k++)
-	{
-		float way_x = way_to_segment(s, k, x, y, &way_y);
-
-		s->squared[k] = way_x * way_x + way_y * way_y;
-	}
-	for (size_t k = 0; k < s->count; k++)
-		if (s->squared[k] < least)
-		{
-			least = s->squared[k];
-			nearest = k;
-		}
-	if (!(least < INFINITY))
-		return INFINITY;
-	way.x = -way_to_segment(s, nearest, x, y, &way_y);
-	way.y = -way_y;
-	distance = sqrt(way.x * way.x + way.y * way.y);
-	if (distance > 0)
-		*away = (ty_point){way.x / distance, way.y / distance};
-	return distance;
+	box.x += moved.x;
+	box.y += moved.y;
+	if (w->is_disc)
+		return w->radius + l->line_target - ty_nearest_segment(&l->around, (ty_point){box.x, box.y}, away);
+	return ty_lack_beside_segments(&l->around, &box, w->radius, l->line_target, away);
 }
 
-bool
-ty_is_behind(const ty_surroundings *s, ty_point place)
+static inline bool
+is_behind(const ty_ladder *l, const walker *w, ty_point moved)
 {
-	float x = (float) place.x, y = (float) place.y;
-	int crossed = 0;
-
-	for (size_t k = 0; k < s->count; k++)
-	{
-		float home_side = s->y[k] * s->dx[k] - s->x[k] * s->dy[k], way = x * s->dy[k] - y * s->dx[k];
-		float from = x * s->y[k] - y * s->x[k];
-		/* both below 0 where the ends of each are on different sides of the other */
-		float sides = home_side * (home_side + way), ends = from * (from + way), larger = sides > ends ? sides : ends;
-
-		crossed |= larger < 0 ? 1 : 0;
-	}
-	return crossed != 0;
+	return ty_is_behind(&l->around, (ty_point){w->box.x + moved.x, w->box.y + moved.y});
 }
 
-/* Whether the disc that is as wide as the site, as small as it may become, comes to a place with room for it. */
 static bool
-disc_finds_room(const ty_ladder *l, uint32_t i, ty_point from, double bound)
+stands_clear(ty_ladder *l, const walker *w)
 {
-	const ty_surroundings *s = &l->around;
-	double radius = 0.5 * l->sites[i].least.width;
-	progress p = {INFINITY, INFINITY};
-	ty_point place = from, away = {1, 0};
+	ty_point away, here = {0, 0};
 
-	for (int steps = 0; steps < STEPS; steps++)
-	{
-		double lack = radius + l->line_target - nearest_segment(s, place, &away), share;
-		ty_point way;
-
-		if (!ty_is_line_conflict(l, lack) && !ty_is_behind(s, place))
-			return true;
-		if (is_stagnant(&p, lack))
-			return false;
-		way = (ty_point){place.x + lack * away.x - from.x, place.y + lack * away.y - from.y};
-		share = share_within(way, bound);
-		for (int turn = 0; turn <= TURNS_BACK; turn++, share *= 0.5)
-		{
-			place = (ty_point){from.x + share * way.x, from.y + share * way.y};
-			if (!ty_is_behind(s, place))
-				break;
-		}
-	}
-	return false;
+	return !ty_is_line_conflict(l, lack_of(l, w, here, &away)) && !is_behind(l, w, here);
 }
 
-/* ---- the rectangle ---- */
-
-/* Whether a site of these sides, whose lines are listed, comes to a place far enough from all of them: *moved from home. */
+/* Whether it comes to a place far enough from all segments that have been picked: *moved from where it begins. */
 static bool
-finds_room(const ty_ladder *l, uint32_t i, ty_sides sides, ty_point *moved)
+finds_room(ty_ladder *l, const walker *w, ty_point *moved)
 {
-	const ty_site *s = &l->sites[i];
-	double factor = s->full.length > 0 ? sides.length / s->full.length : 1;
-	double bound = fmax(ty_free_way(l, i), 0.5 * sides.length);
-	ty_point from = {l->place[i].home.x + factor * s->shift.x, l->place[i].home.y + factor * s->shift.y};
-	ty_oblong box = {from.x, from.y, s->ux, s->uy, 0.5 * sides.length, 0.5 * sides.width};
-	double radius = sqrt(box.half_length * box.half_length + box.half_width * box.half_width);
 	progress p = {INFINITY, INFINITY};
+	ty_point away = {1, 0};
 
 	*moved = (ty_point){0, 0};
 	for (int steps = 0; steps < STEPS; steps++)
 	{
-		ty_point away, way;
-		double lack = ty_box_line_lack(l, i, &box, radius, &away), share;
+		double lack = lack_of(l, w, *moved, &away), share;
+		ty_point way;
 
-		if (!ty_is_line_conflict(l, lack) && !ty_is_behind_line(l, i, (ty_point){box.x, box.y}))
+		if (!ty_is_line_conflict(l, lack) && !is_behind(l, w, *moved))
 			return true;
 		if (is_stagnant(&p, lack))
 			return false;
 		way = (ty_point){moved->x + lack * away.x, moved->y + lack * away.y};
-		share = share_within(way, bound);
+		share = share_within(way, w->bound);
 		for (int turn = 0; turn <= TURNS_BACK; turn++, share *= 0.5)
 		{
 			*moved = (ty_point){share * way.x, share * way.y};
-			box.x = from.x + moved->x;
-			box.y = from.y + moved->y;
-			if (!ty_is_behind_line(l, i, (ty_point){box.x, box.y}))
+			if (!is_behind(l, w, *moved))
 				break;
 		}
 	}
 	return false;
 }
 
-/* Where its lines, which are listed, are in the way of the site at home, it takes a seat. False: there is none. */
-static bool
-take_seat(ty_ladder *l, uint32_t i)
-{
-	ty_site *s = &l->sites[i];
-	ty_point away, moved;
+/* ---- seats ---- */
 
-	if (!l->by_line[i] || (!ty_is_line_conflict(l, ty_line_lack(l, i, &away)) && !ty_is_across(l, i)))
-		return true;
-	if (finds_room(l, i, s->own, &moved))
-		s->size = fmin(s->size, 1);
-	else if (s->least.length < s->own.length && finds_room(l, i, s->least, &moved))
-		s->size = 0;
-	else
-		return false;
-	l->place[i].moved = moved;
-	ty_place_box(l, i);
-	return true;
+/* The site as large as that. */
+static walker
+walker_of(const ty_ladder *l, uint32_t i, ty_sides sides)
+{
+	const ty_site *s = &l->sites[i];
+	double factor = s->full.length > 0 ? sides.length / s->full.length : 1;
+	walker w = {.box = {factor * s->shift.x, factor * s->shift.y, s->ux, s->uy, 0.5 * sides.length, 0.5 * sides.width},
+				.bound = fmax(ty_free_way(l, i), 0.5 * sides.length)};
+
+	w.radius = length_of(w.box.half_length, w.box.half_width);
+	return w;
 }
 
-/* ---- sites ---- */
-
-/* The site meets the lines that it will be kept away from. */
-static ty_status
-meet_lines(ty_ladder *l, uint32_t i)
+/* The site as it has been entered. */
+static walker
+walker_at_home(const ty_ladder *l, uint32_t i)
 {
-	ty_status status;
+	walker w = {.box = l->body[i].box, .radius = l->body[i].radius};
 
-	l->unmet = false;
-	status = ty_enter_site(l, i);
-	l->unmet = true;
+	w.box.x -= l->place[i].home.x;
+	w.box.y -= l->place[i].home.y;
+	return w;
+}
+
+/* how far from home it may come to lie */
+static double
+reach_of(const walker *w)
+{
+	return w->bound + length_of(w->box.x, w->box.y) + w->radius;
+}
+
+/* Picks the segments that matter to whoever reaches so far from the home of the site. */
+static ty_status
+survey(ty_ladder *l, uint32_t i, double reach)
+{
+	l->line_limit = reach + l->line_target;
+	return ty_survey(&l->around, l->sites[i].home, l->line_limit);
+}
+
+/* Whether the disc that is as wide as the site, as small as it may become, comes to a place with room for it. */
+static ty_status
+disc_finds_room(ty_ladder *l, uint32_t i, bool *room)
+{
+	walker w = walker_of(l, i, l->sites[i].least);
+	ty_status status;
+	ty_point moved;
+
+	w.radius = w.box.half_width;
+	w.is_disc = true;
+	status = survey(l, i, reach_of(&w));
+	*room = status == TY_OK && finds_room(l, &w, &moved);
 	return status;
 }
 
-/* Finds out whether the site has room, and so meets its lines; if it has none they stay listed. */
+/* Where lines are in the way of the site at home, it takes a seat. *room: there is one. */
+static ty_status
+take_seat(ty_ladder *l, uint32_t i, bool *room)
+{
+	ty_site *s = &l->sites[i];
+	walker home = walker_at_home(l, i), own = walker_of(l, i, s->own), least = walker_of(l, i, s->least);
+	ty_status status = survey(l, i, fmax(reach_of(&home), fmax(reach_of(&own), reach_of(&least))));
+	ty_point moved;
+
+	*room = true;
+	if (status != TY_OK || stands_clear(l, &home))
+		return status;
+	if (finds_room(l, &own, &moved))
+		s->size = fmin(s->size, 1);
+	else if (s->least.length < s->own.length && finds_room(l, &least, &moved))
+		s->size = 0;
+	else
+		*room = false;
+	if (*room)
+	{
+		l->place[i].moved = moved;
+		ty_place_box(l, i);
+	}
+	return status;
+}
+
+/* Whether the site has room. */
 static ty_status
 look_for_room(ty_ladder *l, uint32_t i, bool *room)
 {
 	const ty_site *s = &l->sites[i];
-	double factor = s->full.length > 0 ? s->least.length / s->full.length : 1;
-	ty_point from = {factor * s->shift.x, factor * s->shift.y};
-	double bound = fmax(ty_free_way(l, i), 0.5 * s->least.length);
 	ty_status status;
 
 	*room = s->fixed || ty_in_row(l, i) || ty_on_rail(s);
 	if (*room)
-		return meet_lines(l, i);
-	status = ty_list_lines(l, i,
-						   bound + 2 * sqrt(from.x * from.x + from.y * from.y) + 0.5 * s->least.width + l->line_target);
-	if (status == TY_OK)
-		status = survey(l, i);
-	if (status != TY_OK || !disc_finds_room(l, i, from, bound))
-		return status;
-	status = meet_lines(l, i);
-	*room = l->body[i].clear = status == TY_OK && take_seat(l, i);
+		return TY_OK;
+	status = disc_finds_room(l, i, room);
+	if (status == TY_OK && *room)
+		status = take_seat(l, i, room);
+	l->body[i].clear = *room;
 	return status;
 }
 
@@ -295,7 +227,7 @@ has_seat(const ty_ladder *l, uint32_t i)
 {
 	ty_point moved = l->place[i].moved;
 
-	return l->by_line[i] && l->body[i].clear && (moved.x != 0 || moved.y != 0);
+	return l->body[i].clear && (moved.x != 0 || moved.y != 0);
 }
 
 /* Who else would sit where the site does: the nearest that it may be joined to; TY_NO_SITE: nobody. */
@@ -395,18 +327,19 @@ sweep_site(ty_ladder *l, uint32_t i, uint8_t sweep, uint8_t *changed)
 	return status;
 }
 
-/* All that are left meet their lines. */
+/* All that are left meet the lines that they will be kept away from. */
 static ty_status
 meet_all(ty_ladder *l)
 {
 	ty_status status = TY_OK;
 
-	for (size_t k = 0; status == TY_OK && k < l->active_count; k++)
+	l->unmet = false;
+	for (size_t i = 0; status == TY_OK && i < l->n; i++)
 	{
-		if (ty_interrupted_at(l->env, k))
+		if (ty_interrupted_at(l->env, i))
 			status = TY_INTERRUPTED;
-		else if (ty_is_drawn(l, l->active[k]))
-			status = meet_lines(l, l->active[k]);
+		else if (ty_is_drawn(l, (uint32_t) i))
+			status = ty_enter_site(l, (uint32_t) i);
 	}
 	return status;
 }
@@ -439,8 +372,7 @@ ty_thin_cells(ty_ladder *l)
 	}
 	if (status == TY_OK)
 		status = meet_all(l);
-	l->unmet = false;
-	l->around.count = 0;
+	ty_surroundings_free(&l->around);
 	ty_vicinity_fit(&l->near);
 	ty_release(l->env, changed);
 	return status;

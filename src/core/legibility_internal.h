@@ -6,6 +6,7 @@
 #include "lists.h"
 #include "separation.h"
 #include "squares.h"
+#include "surroundings.h"
 #include "vicinity.h"
 
 /* Two sites that are too near to each other. */
@@ -30,16 +31,6 @@ typedef struct ty_asking
 	int asked;
 	ty_neighbour last; /* who was asked */
 } ty_asking;
-
-/* Segments near a home, counted from there, in single precision: from (x, y) by (dx, dy). */
-typedef struct ty_surroundings
-{
-	ty_point home;
-	size_t count, capacity;
-	float *x, *y, *dx, *dy;
-	float *inverse; /* of the squared length; 0 where there is none */
-	float *squared; /* distance from a place */
-} ty_surroundings;
 
 /* What of a site tells whether another is too near: no more than a cache line, since millions of pairs are looked at. */
 typedef struct ty_body
@@ -89,8 +80,8 @@ typedef struct ty_ladder
 	const uint32_t *line_list;	/* [line_count] segments in reach of the same site, where it is by_line */
 	const float *line_distance; /* ... from the nearest to its home on */
 	size_t line_count;
-	ty_surroundings around; /* the site whose room was looked for last */
 	double line_limit;		/* there are no others as near to its home as this */
+	ty_surroundings around; /* while lines are unmet: of the site whose room was looked for last */
 	uint32_t *active;		/* [active_count] sites that may be in a conflict: at least one of the two of each */
 	uint32_t *next;			/* those of the next round */
 	size_t active_count, next_count;
@@ -163,8 +154,6 @@ bool ty_fixed_by_line(const ty_ladder *l, uint32_t i);
  */
 ty_status ty_meet_lines(ty_ladder *l, uint32_t i, double reach, double reach_by_line);
 ty_status ty_recall_lines(ty_ladder *l, uint32_t i);
-/* Lists in l->line_list the segments that come nearer to home than limit, in no particular order, for once. */
-ty_status ty_list_lines(ty_ladder *l, uint32_t i, double limit);
 /* Whether a line lies between the site's home and a place, counted from the origin; or where it has come to lie. */
 bool ty_is_behind_line(const ty_ladder *l, uint32_t i, ty_point place);
 /* Whether the site has come to lie on the other side of a line. */
@@ -240,8 +229,6 @@ ty_status ty_resolve_worst(ty_ladder *l, uint8_t *touched);
 
 /* legibility_thin.c: joins or hides where so many sites crowd that nothing else can help. */
 ty_status ty_thin_out(ty_ladder *l);
-/* legibility_cell.c: whether a segment lies between the home of the surroundings and a place, counted from there. */
-bool ty_is_behind(const ty_surroundings *around, ty_point place);
 /* legibility_cell.c: joins what finds no room between lines; all sites meet theirs. */
 ty_status ty_thin_cells(ty_ladder *l);
 /* legibility_settle.c: rounds of shrinking and displacing; below: also below true size. */

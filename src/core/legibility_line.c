@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "clearance.h"
+
 #define ASKED \
 	12 /* so many of the nearest sites are asked whether a line lies between: who is farther is no neighbour */
 
@@ -13,15 +15,6 @@ set_lines(ty_ladder *l, double limit)
 	l->line_list = l->segments.number;
 	l->line_distance = l->segments.distance;
 	l->line_limit = limit;
-}
-
-ty_status
-ty_list_lines(ty_ladder *l, uint32_t i, double limit)
-{
-	ty_status status = ty_barrier_lines_around(l->rules->lines, l->sites[i].home, limit, &l->segments);
-
-	set_lines(l, limit);
-	return status;
 }
 
 /*
@@ -110,61 +103,6 @@ ty_is_across(const ty_ladder *l, uint32_t i)
 
 /* ---- how near a line comes ---- */
 
-/* the nearest line so far, in the frame of a rectangle: the squared distance, and the way from the line */
-typedef struct clearance
-{
-	double squared;
-	ty_point way;
-} clearance;
-
-static ty_point
-into_frame(const ty_oblong *box, double dx, double dy)
-{
-	return (ty_point){dx * box->ux + dy * box->uy, dy * box->ux - dx * box->uy};
-}
-
-static inline double
-limited(double x, double half)
-{
-	double above = x > half ? half : x;
-
-	return above < -half ? -half : above;
-}
-
-static inline void
-note_way(clearance *c, double dx, double dy)
-{
-	double squared = dx * dx + dy * dy;
-
-	if (squared < c->squared)
-		*c = (clearance){squared, {dx, dy}};
-}
-
-/*
- * The segment from p to q beside the rectangle around the origin. Unless they meet, the nearest points are an end of the
- * segment or, of the rectangle, the corner that reaches farthest towards the line.
- */
-static void
-look_at_segment(const ty_oblong *box, ty_point p, ty_point q, clearance *c)
-{
-	double dx = q.x - p.x, dy = q.y - p.y, turn = p.x * dy - p.y * dx;
-	double reach = box->half_length * fabs(dy) + box->half_width * fabs(dx);
-	ty_point corner = {(dy > 0) == (turn > 0) ? box->half_length : -box->half_length,
-					   (dx > 0) == (turn > 0) ? -box->half_width : box->half_width};
-	double along = (corner.x - p.x) * dx + (corner.y - p.y) * dy, squared = dx * dx + dy * dy;
-
-	if (fabs(turn) <= reach && fmin(p.x, q.x) <= box->half_length && fmax(p.x, q.x) >= -box->half_length &&
-		fmin(p.y, q.y) <= box->half_width && fmax(p.y, q.y) >= -box->half_width)
-	{
-		*c = (clearance){0, {0, 0}};
-		return;
-	}
-	note_way(c, limited(p.x, box->half_length) - p.x, limited(p.y, box->half_width) - p.y);
-	note_way(c, limited(q.x, box->half_length) - q.x, limited(q.y, box->half_width) - q.y);
-	if (along > 0 && along < squared)
-		note_way(c, corner.x - (p.x + along / squared * dx), corner.y - (p.y + along / squared * dy));
-}
-
 /* Whether the segment from a to b is farther than reach from where both are counted from. */
 static inline bool
 is_beyond(double reach, ty_point a, ty_point b)
@@ -188,7 +126,7 @@ line_distance(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radiu
 {
 	const ty_point home = l->sites[i].home;
 	ty_point centre = {l->origin.x + box->x, l->origin.y + box->y};
-	clearance c = {limit * limit, {0, 0}};
+	ty_clearance c = {limit * limit, {0, 0}};
 	double distance, reach = (radius + limit) * (1 + 1e-6), from_home = length_of(centre.x - home.x, centre.y - home.y);
 	size_t count = lines_within(l, reach + from_home);
 
@@ -202,7 +140,7 @@ line_distance(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radiu
 		b = (ty_point){b.x - centre.x, b.y - centre.y};
 		if (is_beyond(reach, a, b))
 			continue;
-		look_at_segment(box, into_frame(box, a.x, a.y), into_frame(box, b.x, b.y), &c);
+		ty_look_at_segment(box, ty_into_frame(box, a.x, a.y), ty_into_frame(box, b.x, b.y), &c);
 		if (c.squared < before)
 		{
 			reach = (radius + sqrt(c.squared)) * (1 + 1e-6);
@@ -214,8 +152,7 @@ line_distance(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radiu
 	if (!(distance < limit))
 		return limit;
 	if (distance > 0)
-		*away = (ty_point){(c.way.x * box->ux - c.way.y * box->uy) / distance,
-						   (c.way.x * box->uy + c.way.y * box->ux) / distance};
+		*away = ty_out_of_frame(box, (ty_point){c.way.x / distance, c.way.y / distance});
 	return distance;
 }
 
@@ -279,7 +216,7 @@ ty_may_join(const ty_ladder *l, uint32_t a, uint32_t b)
 static double
 squared_distance(const ty_ladder *l, uint32_t a, uint32_t b)
 {
-	double dx = l->sites[a].home.x - l->sites[b].home.x, dy = l->sites[a].home.y - l->sites[b].home.y;
+	double dx = l->place[a].home.x - l->place[b].home.x, dy = l->place[a].home.y - l->place[b].home.y;
 
 	return dx * dx + dy * dy;
 }
@@ -359,22 +296,42 @@ add_neighbours(ty_ladder *l, uint32_t i, const uint32_t *found, size_t count)
 	return TY_OK;
 }
 
+/*
+ * Whether no line lies between the home of the site, which has been surveyed, and the other's. Only what single precision
+ * lets through is looked at exactly.
+ */
+static bool
+is_open(const ty_ladder *l, uint32_t i, ty_neighbour n)
+{
+	const ty_segment_set *near = &l->around.near;
+	const ty_point from = l->sites[i].home, to = l->sites[n.number].home;
+
+	return !ty_is_behind(&l->around, (ty_point){to.x - from.x, to.y - from.y}) &&
+		   !ty_barrier_segments_cross(l->rules->lines, near->number, near->count, from, to);
+}
+
+static bool
+is_surveyed(const ty_ladder *l, uint32_t i)
+{
+	const ty_point home = l->sites[i].home;
+
+	return l->unmet && l->around.home.x == home.x && l->around.home.y == home.y;
+}
+
 /* Whether the two may be joined. The lines in reach are at hand: mostly it is one of these that lies between. */
 static bool
 is_on_its_side(const ty_ladder *l, uint32_t i, ty_neighbour n)
 {
 	const ty_point from = l->sites[i].home, to = l->sites[n.number].home;
+	bool is_near = n.squared * (1 + 1e-6) < l->line_limit * l->line_limit;
 
 	if (l->sites[i].group != l->sites[n.number].group)
 		return false;
-	if (l->around.home.x == from.x && l->around.home.y == from.y &&
-		ty_is_behind(&l->around, (ty_point){to.x - from.x, to.y - from.y}))
-		return false;
+	if (is_surveyed(l, i))
+		return is_open(l, i, n) && (is_near || ty_may_join(l, i, n.number));
 	if (l->by_line[i] && ty_barrier_segments_cross(l->rules->lines, l->line_list, l->line_count, from, to))
 		return false;
-	if (l->by_line[i] && n.squared * (1 + 1e-6) < l->line_limit * l->line_limit)
-		return true;
-	return ty_may_join(l, i, n.number);
+	return (l->by_line[i] && is_near) || ty_may_join(l, i, n.number);
 }
 
 /* Asks the neighbours who are no farther than that, from the nearest on. Whether that is all that will be asked. */
