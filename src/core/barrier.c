@@ -382,7 +382,7 @@ raise_boxes(ty_barriers *barriers)
 	if (status == TY_OK)
 		ty_boxes_raise(&barriers->boxes);
 	if (status == TY_OK)
-		status = ty_box_squares_build(barriers->env, barriers->boxes.box, count, &barriers->squares);
+		status = ty_barrier_squares_build(barriers->env, barriers->segments, barriers->count, &barriers->squares);
 	return status;
 }
 
@@ -403,7 +403,7 @@ ty_barriers_free(ty_barriers *barriers)
 {
 	ty_release(barriers->env, barriers->segments);
 	ty_boxes_free(barriers->env, &barriers->boxes);
-	ty_box_squares_free(barriers->env, &barriers->squares);
+	ty_barrier_squares_free(barriers->env, &barriers->squares);
 	*barriers = (ty_barriers){.env = barriers->env};
 }
 
@@ -481,6 +481,14 @@ edge_may_meet(const void *context, const ty_box *box)
 	return dx * low_y - dy * low_x <= e->near && dx * high_y - dy * high_x >= -e->near;
 }
 
+/* Whether a segment leaves the edge and the way alone. */
+static inline bool
+passes(const edge *e, const ty_barrier_segment *s)
+{
+	return most(s->a.x, s->b.x) < e->low.x || least(s->a.x, s->b.x) > e->high.x || most(s->a.y, s->b.y) < e->low.y ||
+		   least(s->a.y, s->b.y) > e->high.y || !bars(e, s);
+}
+
 /* Eight segments; false, which ends the search, when one lies on the edge or on the way. */
 static inline bool
 edge_passes(void *context, size_t thing)
@@ -489,53 +497,24 @@ edge_passes(void *context, size_t thing)
 	size_t from = thing * TY_BOX_FAN, to = from + TY_BOX_FAN < e->count ? from + TY_BOX_FAN : e->count;
 
 	for (size_t i = from; i < to; i++)
-	{
-		const ty_barrier_segment *s = &e->segments[i];
-
-		if (most(s->a.x, s->b.x) >= e->low.x && least(s->a.x, s->b.x) <= e->high.x &&
-			most(s->a.y, s->b.y) >= e->low.y && least(s->a.y, s->b.y) <= e->high.y && bars(e, s))
+		if (!passes(e, &e->segments[i]))
 			return false;
-	}
 	return true;
 }
 
-#define MOST_AT_ONCE 32
-
-/*
- * The same search where squares serve: three times as quick for the edges of a mesh, which are short. Segments lie
- * anywhere in memory: those of several boxes are called for at a time.
- */
+/* The same search where squares serve, as they do for nearly all edges of a mesh. */
 static bool
-edge_passes_squares(const ty_barriers *barriers, edge *e)
+edge_passes_squares(const ty_barrier_squares *squares, ty_barrier_span span, const edge *e)
 {
-	const ty_box_squares *squares = &barriers->squares;
-	uint32_t low_column = ty_square_column(squares, e->low.x), high_column = ty_square_column(squares, e->high.x);
-	uint32_t low_row = ty_square_column(squares, e->low.y), high_row = ty_square_column(squares, e->high.y);
-	uint32_t met[MOST_AT_ONCE];
-	int count = 0;
-
-	for (uint32_t row = low_row; row <= high_row; row++)
-		for (uint32_t column = low_column; column <= high_column; column++)
+	for (uint32_t row = span.low_row; row <= span.high_row; row++)
+		for (uint32_t column = span.low_column; column <= span.high_column; column++)
 		{
-			uint32_t from, to;
+			const uint32_t *first = &squares->first[ty_barrier_square(squares, column, row)];
 
-			ty_box_squares_at(squares, column, row, &from, &to);
-			for (uint32_t k = from; k < to; k++)
-			{
-				uint32_t thing = squares->thing[k];
-
-				if (!edge_may_meet(e, &barriers->boxes.box[thing]))
-					continue;
-				if (count == MOST_AT_ONCE && !edge_passes(e, met[--count]))
+			for (uint32_t k = first[0]; k < first[1]; k++)
+				if (!passes(e, &e->segments[squares->number[k]]))
 					return false;
-				__builtin_prefetch(&e->segments[(size_t) thing * TY_BOX_FAN]);
-				__builtin_prefetch(&e->segments[(size_t) thing * TY_BOX_FAN] + TY_BOX_FAN / 2);
-				met[count++] = thing;
-			}
 		}
-	while (count > 0)
-		if (!edge_passes(e, met[--count]))
-			return false;
 	return true;
 }
 
@@ -549,6 +528,7 @@ bool
 ty_barriers_bar(const ty_barriers *barriers, ty_position a, ty_position b, ty_position merged)
 {
 	edge e = {.segments = barriers->segments, .count = barriers->count, .a = a, .b = b, .via = merged};
+	ty_barrier_span span;
 
 	if (barriers->count == 0 || ty_same_position(a, b))
 		return false;
@@ -557,9 +537,10 @@ ty_barriers_bar(const ty_barriers *barriers, ty_position a, ty_position b, ty_po
 	/* a move by an infinitesimal reaches no whole number: nothing beyond the box of the places is met */
 	e.low = (ty_position){least(least(a.x, b.x), merged.x), least(least(a.y, b.y), merged.y)};
 	e.high = (ty_position){most(most(a.x, b.x), merged.x), most(most(a.y, b.y), merged.y)};
+	span = ty_barrier_span_of(&barriers->squares, e.low, e.high);
+	if (ty_barrier_squares_serve(&barriers->squares, span))
+		return !edge_passes_squares(&barriers->squares, span, &e);
 	e.box = ty_box_of(e.low.x, e.low.y, e.high.x, e.high.y);
-	if (ty_box_squares_serve(&barriers->squares, e.low.x, e.low.y, e.high.x, e.high.y))
-		return !edge_passes_squares(barriers, &e);
 	return !ty_boxes_search(&barriers->boxes, edge_may_meet, edge_passes, &e);
 }
 
@@ -567,4 +548,49 @@ bool
 ty_barriers_cross(const ty_barriers *barriers, ty_position a, ty_position b)
 {
 	return ty_barriers_bar(barriers, a, b, a);
+}
+
+/* ---- fetching ---- */
+
+enum
+{
+	SQUARES,
+	NUMBERS,
+	SEGMENTS,
+	FETCHES
+};
+
+static inline void
+fetch_square(const ty_barriers *barriers, size_t square, int what)
+{
+	const ty_barrier_squares *squares = &barriers->squares;
+
+	if (what == SQUARES)
+		__builtin_prefetch(&squares->first[square]);
+	else if (what == NUMBERS)
+		__builtin_prefetch(&squares->number[squares->first[square]]);
+	else
+		for (uint32_t k = squares->first[square]; k < squares->first[square + 1]; k++)
+			__builtin_prefetch(&barriers->segments[squares->number[k]]);
+}
+
+/* Each has to be waited for before it says where the next is: all of a kind are called for together. */
+void
+ty_barriers_fetch(const ty_barriers *barriers, const ty_edge_ends *edge, size_t count)
+{
+	const ty_barrier_squares *squares = &barriers->squares;
+
+	for (int what = SQUARES; what < FETCHES; what++)
+		for (size_t i = 0; i < count; i++)
+		{
+			ty_position a = edge[i].a, b = edge[i].b;
+			ty_barrier_span span = ty_barrier_span_of(squares, (ty_position){least(a.x, b.x), least(a.y, b.y)},
+													  (ty_position){most(a.x, b.x), most(a.y, b.y)});
+
+			if (!ty_barrier_squares_serve(squares, span))
+				continue;
+			for (uint32_t row = span.low_row; row <= span.high_row; row++)
+				for (uint32_t column = span.low_column; column <= span.high_column; column++)
+					fetch_square(barriers, ty_barrier_square(squares, column, row), what);
+		}
 }
