@@ -17,6 +17,16 @@ ty_barrier_lines_begin(ty_barrier_lines *lines, const ty_environment *env)
 	*lines = (ty_barrier_lines){.env = env};
 }
 
+/* A box of finite points grows to hold one. */
+static inline void
+enlarge(ty_point *low, ty_point *high, ty_point p)
+{
+	low->x = p.x < low->x ? p.x : low->x;
+	low->y = p.y < low->y ? p.y : low->y;
+	high->x = p.x > high->x ? p.x : high->x;
+	high->y = p.y > high->y ? p.y : high->y;
+}
+
 static ty_status
 add_run(ty_barrier_lines *lines, const unsigned char *xy, size_t stride, uint32_t points)
 {
@@ -32,9 +42,7 @@ add_run(ty_barrier_lines *lines, const unsigned char *xy, size_t stride, uint32_
 		lines->runs = runs;
 		lines->capacity = capacity;
 	}
-	lines->runs[lines->count] = (ty_barrier_run){xy, (uint32_t) stride, points};
-	if (lines->count++ == 0)
-		lines->origin = ty_run_point(&lines->runs[0], 0);
+	lines->runs[lines->count++] = (ty_barrier_run){xy, (uint32_t) stride, points};
 	lines->segments += points - 1;
 	return TY_OK;
 }
@@ -52,6 +60,10 @@ ty_barrier_lines_add(ty_barrier_lines *lines, const void *xy, size_t stride, uin
 
 		if (!isfinite(p.x) || !isfinite(p.y))
 			return TY_NOT_FINITE;
+		if (lines->count == 0 && i == 0)
+			lines->origin = lines->low = lines->high = p;
+		if (n > 1)
+			enlarge(&lines->low, &lines->high, p);
 		if (ty_interrupted_at(lines->env, i + 1))
 			return TY_INTERRUPTED;
 	}
@@ -68,14 +80,7 @@ box_of_run(const ty_barrier_run *run, ty_point *low, ty_point *high)
 {
 	*low = *high = ty_run_point(run, 0);
 	for (uint32_t i = 1; i < run->points; i++)
-	{
-		ty_point p = ty_run_point(run, i);
-
-		low->x = fmin(low->x, p.x);
-		low->y = fmin(low->y, p.y);
-		high->x = fmax(high->x, p.x);
-		high->y = fmax(high->y, p.y);
-	}
+		enlarge(low, high, ty_run_point(run, i));
 }
 
 /* A whole number of [0, 2^30] that grows with the coordinate; how it rounds is only a matter of speed. */
@@ -87,58 +92,6 @@ place_between(double value, double low, double high)
 	return side > 0 ? (int32_t) ((value / 2 - low / 2) / side * (1 << TY_GRID_BITS)) : 0;
 }
 
-/* Hilbert keys of the middles of the runs */
-static ty_status
-run_keys(const ty_barrier_lines *lines, uint64_t *keys, uint32_t *order)
-{
-	ty_point low = lines->origin, high = low, l, h;
-
-	for (size_t i = 0; i < lines->count; i++)
-	{
-		box_of_run(&lines->runs[i], &l, &h);
-		low = (ty_point){fmin(low.x, l.x), fmin(low.y, l.y)};
-		high = (ty_point){fmax(high.x, h.x), fmax(high.y, h.y)};
-	}
-	for (size_t i = 0; i < lines->count; i++)
-	{
-		if (ty_interrupted_at(lines->env, i))
-			return TY_INTERRUPTED;
-		box_of_run(&lines->runs[i], &l, &h);
-		keys[i] = ty_hilbert_key((ty_position){place_between(l.x / 2 + h.x / 2, low.x, high.x),
-											   place_between(l.y / 2 + h.y / 2, low.y, high.y)});
-		order[i] = (uint32_t) i;
-	}
-	return TY_OK;
-}
-
-static ty_status
-sort_runs(ty_barrier_lines *lines)
-{
-	uint64_t *keys = ty_allocate_array(lines->env, lines->count, sizeof *keys);
-	uint32_t *order = ty_allocate_array(lines->env, lines->count, sizeof *order);
-	ty_barrier_run *sorted = ty_allocate_array(lines->env, lines->count, sizeof *sorted);
-	ty_status status = TY_NO_MEMORY;
-
-	if (keys != NULL && order != NULL && sorted != NULL)
-		status = run_keys(lines, keys, order);
-	if (status == TY_OK)
-		status = ty_sort_keys(lines->env, keys, order, lines->count);
-	if (status == TY_OK)
-	{
-		ty_barrier_run *unsorted = lines->runs;
-
-		for (size_t i = 0; i < lines->count; i++)
-			sorted[i] = unsorted[order[i]];
-		lines->runs = sorted;
-		lines->capacity = lines->count;
-		sorted = unsorted;
-	}
-	ty_release(lines->env, keys);
-	ty_release(lines->env, order);
-	ty_release(lines->env, sorted);
-	return status;
-}
-
 /* a box on the ground as the tree has it */
 static ty_box
 relative_box(const ty_barrier_lines *lines, ty_point low, ty_point high)
@@ -147,24 +100,84 @@ relative_box(const ty_barrier_lines *lines, ty_point low, ty_point high)
 					 high.y - lines->origin.y);
 }
 
+/* runs on their way into order */
+typedef struct run_order
+{
+	uint64_t *key;	 /* along the Hilbert curve, of the middle */
+	uint32_t *order; /* by key */
+	ty_box *box;
+	ty_barrier_run *sorted;
+} run_order;
+
+static bool
+allocate_order(const ty_barrier_lines *lines, run_order *o)
+{
+	o->key = ty_allocate_array(lines->env, lines->count, sizeof *o->key);
+	o->order = ty_allocate_array(lines->env, lines->count, sizeof *o->order);
+	o->box = ty_allocate_array(lines->env, lines->count, sizeof *o->box);
+	o->sorted = ty_allocate_array(lines->env, lines->count, sizeof *o->sorted);
+	return o->key != NULL && o->order != NULL && o->box != NULL && o->sorted != NULL;
+}
+
+/* Points are read once, in the order in which they lie in memory. */
+static ty_status
+measure_runs(const ty_barrier_lines *lines, run_order *o)
+{
+	ty_point all_low = lines->low, all_high = lines->high, low, high;
+
+	for (size_t i = 0; i < lines->count; i++)
+	{
+		if (ty_interrupted_at(lines->env, i))
+			return TY_INTERRUPTED;
+		box_of_run(&lines->runs[i], &low, &high);
+		o->box[i] = relative_box(lines, low, high);
+		o->key[i] = ty_hilbert_key((ty_position){place_between(low.x / 2 + high.x / 2, all_low.x, all_high.x),
+												 place_between(low.y / 2 + high.y / 2, all_low.y, all_high.y)});
+		o->order[i] = (uint32_t) i;
+	}
+	return TY_OK;
+}
+
+static void
+arrange_runs(ty_barrier_lines *lines, run_order *o)
+{
+	ty_barrier_run *unsorted = lines->runs;
+
+	for (size_t i = 0; i < lines->count; i++)
+	{
+		o->sorted[i] = unsorted[o->order[i]];
+		lines->boxes.box[i] = o->box[o->order[i]];
+	}
+	lines->runs = o->sorted;
+	lines->capacity = lines->count;
+	o->sorted = unsorted;
+}
+
 ty_status
 ty_barrier_lines_end(ty_barrier_lines *lines)
 {
-	ty_status status = lines->count >= UINT32_MAX ? TY_TOO_MANY : sort_runs(lines);
+	run_order o = {0};
+	ty_status status = TY_OK;
 
+	if (lines->count >= UINT32_MAX)
+		status = TY_TOO_MANY;
+	else if (!allocate_order(lines, &o))
+		status = TY_NO_MEMORY;
+	if (status == TY_OK)
+		status = measure_runs(lines, &o);
+	if (status == TY_OK)
+		status = ty_sort_keys(lines->env, o.key, o.order, lines->count);
 	if (status == TY_OK)
 		status = ty_boxes_begin(lines->env, lines->count, &lines->boxes);
-	for (size_t i = 0; i < lines->count && status == TY_OK; i++)
-	{
-		ty_point low, high;
-
-		box_of_run(&lines->runs[i], &low, &high);
-		lines->boxes.box[i] = relative_box(lines, low, high);
-		if (ty_interrupted_at(lines->env, i))
-			status = TY_INTERRUPTED;
-	}
 	if (status == TY_OK)
+	{
+		arrange_runs(lines, &o);
 		ty_boxes_raise(&lines->boxes);
+	}
+	ty_release(lines->env, o.key);
+	ty_release(lines->env, o.order);
+	ty_release(lines->env, o.box);
+	ty_release(lines->env, o.sorted);
 	return status;
 }
 
@@ -308,6 +321,15 @@ add_segment(ty_barriers *barriers, ty_barrier_segment s)
 	return TY_OK;
 }
 
+static inline void
+fetch_run(const ty_barrier_run *run)
+{
+	__builtin_prefetch(run->xy);
+	__builtin_prefetch(run->xy + (size_t) (run->points - 1) * run->stride);
+}
+
+#define AHEAD 8 /* runs: they follow one another on the ground, but lie anywhere in memory */
+
 static bool
 fit_run(void *context, size_t thing)
 {
@@ -315,6 +337,8 @@ fit_run(void *context, size_t thing)
 	const ty_barrier_run *run = &f->lines->runs[thing];
 	line_end last = end_on_grid(f->grid, ty_run_point(run, 0));
 
+	if (thing + AHEAD < f->lines->count)
+		fetch_run(run + AHEAD);
 	for (uint32_t i = 1; i < run->points && f->status == TY_OK; i++)
 	{
 		line_end next = end_on_grid(f->grid, ty_run_point(run, i));

@@ -45,6 +45,7 @@ typedef struct ty_barrier_lines
 {
 	const ty_environment *env;
 	ty_point origin;		/* the first point: boxes are relative to it */
+	ty_point low, high;		/* of all points */
 	size_t segments;		/* of all lines, those without length too */
 	size_t count, capacity; /* of runs */
 	ty_barrier_run *runs;	/* once ended along the Hilbert curve */
