@@ -17,6 +17,16 @@ ty_barrier_lines_begin(ty_barrier_lines *lines, const ty_environment *env)
 	*lines = (ty_barrier_lines){.env = env};
 }
 
+/* A box of finite points grows to hold one. */
+static inline void
+enlarge(ty_point *low, ty_point *high, ty_point p)
+{
+	low->x = p.x < low->x ? p.x : low->x;
+	low->y = p.y < low->y ? p.y : low->y;
+	high->x = p.x > high->x ? p.x : high->x;
+	high->y = p.y > high->y ? p.y : high->y;
+}
+
 static ty_status
 add_run(ty_barrier_lines *lines, const unsigned char *xy, size_t stride, uint32_t points)
 {
@@ -32,9 +42,7 @@ add_run(ty_barrier_lines *lines, const unsigned char *xy, size_t stride, uint32_
 		lines->runs = runs;
 		lines->capacity = capacity;
 	}
-	lines->runs[lines->count] = (ty_barrier_run){xy, (uint32_t) stride, points};
-	if (lines->count++ == 0)
-		lines->origin = ty_run_point(&lines->runs[0], 0);
+	lines->runs[lines->count++] = (ty_barrier_run){xy, (uint32_t) stride, points};
 	lines->segments += points - 1;
 	return TY_OK;
 }
@@ -52,6 +60,10 @@ ty_barrier_lines_add(ty_barrier_lines *lines, const void *xy, size_t stride, uin
 
 		if (!isfinite(p.x) || !isfinite(p.y))
 			return TY_NOT_FINITE;
+		if (lines->count == 0 && i == 0)
+			lines->origin = lines->low = lines->high = p;
+		if (n > 1)
+			enlarge(&lines->low, &lines->high, p);
 		if (ty_interrupted_at(lines->env, i + 1))
 			return TY_INTERRUPTED;
 	}
@@ -68,14 +80,7 @@ box_of_run(const ty_barrier_run *run, ty_point *low, ty_point *high)
 {
 	*low = *high = ty_run_point(run, 0);
 	for (uint32_t i = 1; i < run->points; i++)
-	{
-		ty_point p = ty_run_point(run, i);
-
-		low->x = fmin(low->x, p.x);
-		low->y = fmin(low->y, p.y);
-		high->x = fmax(high->x, p.x);
-		high->y = fmax(high->y, p.y);
-	}
+		enlarge(low, high, ty_run_point(run, i));
 }
 
 /* A whole number of [0, 2^30] that grows with the coordinate; how it rounds is only a matter of speed. */
@@ -87,58 +92,6 @@ place_between(double value, double low, double high)
 	return side > 0 ? (int32_t) ((value / 2 - low / 2) / side * (1 << TY_GRID_BITS)) : 0;
 }
 
-/* Hilbert keys of the middles of the runs */
-static ty_status
-run_keys(const ty_barrier_lines *lines, uint64_t *keys, uint32_t *order)
-{
-	ty_point low = lines->origin, high = low, l, h;
-
-	for (size_t i = 0; i < lines->count; i++)
-	{
-		box_of_run(&lines->runs[i], &l, &h);
-		low = (ty_point){fmin(low.x, l.x), fmin(low.y, l.y)};
-		high = (ty_point){fmax(high.x, h.x), fmax(high.y, h.y)};
-	}
-	for (size_t i = 0; i < lines->count; i++)
-	{
-		if (ty_interrupted_at(lines->env, i))
-			return TY_INTERRUPTED;
-		box_of_run(&lines->runs[i], &l, &h);
-		keys[i] = ty_hilbert_key((ty_position){place_between(l.x / 2 + h.x / 2, low.x, high.x),
-											   place_between(l.y / 2 + h.y / 2, low.y, high.y)});
-		order[i] = (uint32_t) i;
-	}
-	return TY_OK;
-}
-
-static ty_status
-sort_runs(ty_barrier_lines *lines)
-{
-	uint64_t *keys = ty_allocate_array(lines->env, lines->count, sizeof *keys);
-	uint32_t *order = ty_allocate_array(lines->env, lines->count, sizeof *order);
-	ty_barrier_run *sorted = ty_allocate_array(lines->env, lines->count, sizeof *sorted);
-	ty_status status = TY_NO_MEMORY;
-
-	if (keys != NULL && order != NULL && sorted != NULL)
-		status = run_keys(lines, keys, order);
-	if (status == TY_OK)
-		status = ty_sort_keys(lines->env, keys, order, lines->count);
-	if (status == TY_OK)
-	{
-		ty_barrier_run *unsorted = lines->runs;
-
-		for (size_t i = 0; i < lines->count; i++)
-			sorted[i] = unsorted[order[i]];
-		lines->runs = sorted;
-		lines->capacity = lines->count;
-		sorted = unsorted;
-	}
-	ty_release(lines->env, keys);
-	ty_release(lines->env, order);
-	ty_release(lines->env, sorted);
-	return status;
-}
-
 /* a box on the ground as the tree has it */
 static ty_box
 relative_box(const ty_barrier_lines *lines, ty_point low, ty_point high)
@@ -147,24 +100,84 @@ relative_box(const ty_barrier_lines *lines, ty_point low, ty_point high)
 					 high.y - lines->origin.y);
 }
 
+/* runs on their way into order */
+typedef struct run_order
+{
+	uint64_t *key;	 /* along the Hilbert curve, of the middle */
+	uint32_t *order; /* by key */
+	ty_box *box;
+	ty_barrier_run *sorted;
+} run_order;
+
+static bool
+allocate_order(const ty_barrier_lines *lines, run_order *o)
+{
+	o->key = ty_allocate_array(lines->env, lines->count, sizeof *o->key);
+	o->order = ty_allocate_array(lines->env, lines->count, sizeof *o->order);
+	o->box = ty_allocate_array(lines->env, lines->count, sizeof *o->box);
+	o->sorted = ty_allocate_array(lines->env, lines->count, sizeof *o->sorted);
+	return o->key != NULL && o->order != NULL && o->box != NULL && o->sorted != NULL;
+}
+
+/* Points are read once, in the order in which they lie in memory. */
+static ty_status
+measure_runs(const ty_barrier_lines *lines, run_order *o)
+{
+	ty_point all_low = lines->low, all_high = lines->high, low, high;
+
+	for (size_t i = 0; i < lines->count; i++)
+	{
+		if (ty_interrupted_at(lines->env, i))
+			return TY_INTERRUPTED;
+		box_of_run(&lines->runs[i], &low, &high);
+		o->box[i] = relative_box(lines, low, high);
+		o->key[i] = ty_hilbert_key((ty_position){place_between(low.x / 2 + high.x / 2, all_low.x, all_high.x),
+												 place_between(low.y / 2 + high.y / 2, all_low.y, all_high.y)});
+		o->order[i] = (uint32_t) i;
+	}
+	return TY_OK;
+}
+
+static void
+arrange_runs(ty_barrier_lines *lines, run_order *o)
+{
+	ty_barrier_run *unsorted = lines->runs;
+
+	for (size_t i = 0; i < lines->count; i++)
+	{
+		o->sorted[i] = unsorted[o->order[i]];
+		lines->boxes.box[i] = o->box[o->order[i]];
+	}
+	lines->runs = o->sorted;
+	lines->capacity = lines->count;
+	o->sorted = unsorted;
+}
+
 ty_status
 ty_barrier_lines_end(ty_barrier_lines *lines)
 {
-	ty_status status = lines->count >= UINT32_MAX ? TY_TOO_MANY : sort_runs(lines);
+	run_order o = {0};
+	ty_status status = TY_OK;
 
+	if (lines->count >= UINT32_MAX)
+		status = TY_TOO_MANY;
+	else if (!allocate_order(lines, &o))
+		status = TY_NO_MEMORY;
+	if (status == TY_OK)
+		status = measure_runs(lines, &o);
+	if (status == TY_OK)
+		status = ty_sort_keys(lines->env, o.key, o.order, lines->count);
 	if (status == TY_OK)
 		status = ty_boxes_begin(lines->env, lines->count, &lines->boxes);
-	for (size_t i = 0; i < lines->count && status == TY_OK; i++)
-	{
-		ty_point low, high;
-
-		box_of_run(&lines->runs[i], &low, &high);
-		lines->boxes.box[i] = relative_box(lines, low, high);
-		if (ty_interrupted_at(lines->env, i))
-			status = TY_INTERRUPTED;
-	}
 	if (status == TY_OK)
+	{
+		arrange_runs(lines, &o);
 		ty_boxes_raise(&lines->boxes);
+	}
+	ty_release(lines->env, o.key);
+	ty_release(lines->env, o.order);
+	ty_release(lines->env, o.box);
+	ty_release(lines->env, o.sorted);
 	return status;
 }
 
@@ -308,6 +321,15 @@ add_segment(ty_barriers *barriers, ty_barrier_segment s)
 	return TY_OK;
 }
 
+static inline void
+fetch_run(const ty_barrier_run *run)
+{
+	__builtin_prefetch(run->xy);
+	__builtin_prefetch(run->xy + (size_t) (run->points - 1) * run->stride);
+}
+
+#define AHEAD 8 /* runs: they follow one another on the ground, but lie anywhere in memory */
+
 static bool
 fit_run(void *context, size_t thing)
 {
@@ -315,6 +337,8 @@ fit_run(void *context, size_t thing)
 	const ty_barrier_run *run = &f->lines->runs[thing];
 	line_end last = end_on_grid(f->grid, ty_run_point(run, 0));
 
+	if (thing + AHEAD < f->lines->count)
+		fetch_run(run + AHEAD);
 	for (uint32_t i = 1; i < run->points && f->status == TY_OK; i++)
 	{
 		line_end next = end_on_grid(f->grid, ty_run_point(run, i));
@@ -382,7 +406,7 @@ raise_boxes(ty_barriers *barriers)
 	if (status == TY_OK)
 		ty_boxes_raise(&barriers->boxes);
 	if (status == TY_OK)
-		status = ty_box_squares_build(barriers->env, barriers->boxes.box, count, &barriers->squares);
+		status = ty_barrier_squares_build(barriers->env, barriers->segments, barriers->count, &barriers->squares);
 	return status;
 }
 
@@ -403,7 +427,7 @@ ty_barriers_free(ty_barriers *barriers)
 {
 	ty_release(barriers->env, barriers->segments);
 	ty_boxes_free(barriers->env, &barriers->boxes);
-	ty_box_squares_free(barriers->env, &barriers->squares);
+	ty_barrier_squares_free(barriers->env, &barriers->squares);
 	*barriers = (ty_barriers){.env = barriers->env};
 }
 
@@ -481,6 +505,14 @@ edge_may_meet(const void *context, const ty_box *box)
 	return dx * low_y - dy * low_x <= e->near && dx * high_y - dy * high_x >= -e->near;
 }
 
+/* Whether a segment leaves the edge and the way alone. */
+static inline bool
+passes(const edge *e, const ty_barrier_segment *s)
+{
+	return most(s->a.x, s->b.x) < e->low.x || least(s->a.x, s->b.x) > e->high.x || most(s->a.y, s->b.y) < e->low.y ||
+		   least(s->a.y, s->b.y) > e->high.y || !bars(e, s);
+}
+
 /* Eight segments; false, which ends the search, when one lies on the edge or on the way. */
 static inline bool
 edge_passes(void *context, size_t thing)
@@ -489,53 +521,24 @@ edge_passes(void *context, size_t thing)
 	size_t from = thing * TY_BOX_FAN, to = from + TY_BOX_FAN < e->count ? from + TY_BOX_FAN : e->count;
 
 	for (size_t i = from; i < to; i++)
-	{
-		const ty_barrier_segment *s = &e->segments[i];
-
-		if (most(s->a.x, s->b.x) >= e->low.x && least(s->a.x, s->b.x) <= e->high.x &&
-			most(s->a.y, s->b.y) >= e->low.y && least(s->a.y, s->b.y) <= e->high.y && bars(e, s))
+		if (!passes(e, &e->segments[i]))
 			return false;
-	}
 	return true;
 }
 
-#define MOST_AT_ONCE 32
-
-/*
- * The same search where squares serve: three times as quick for the edges of a mesh, which are short. Segments lie
- * anywhere in memory: those of several boxes are called for at a time.
- */
+/* The same search where squares serve, as they do for nearly all edges of a mesh. */
 static bool
-edge_passes_squares(const ty_barriers *barriers, edge *e)
+edge_passes_squares(const ty_barrier_squares *squares, ty_barrier_span span, const edge *e)
 {
-	const ty_box_squares *squares = &barriers->squares;
-	uint32_t low_column = ty_square_column(squares, e->low.x), high_column = ty_square_column(squares, e->high.x);
-	uint32_t low_row = ty_square_column(squares, e->low.y), high_row = ty_square_column(squares, e->high.y);
-	uint32_t met[MOST_AT_ONCE];
-	int count = 0;
-
-	for (uint32_t row = low_row; row <= high_row; row++)
-		for (uint32_t column = low_column; column <= high_column; column++)
+	for (uint32_t row = span.low_row; row <= span.high_row; row++)
+		for (uint32_t column = span.low_column; column <= span.high_column; column++)
 		{
-			uint32_t from, to;
+			const uint32_t *first = &squares->first[ty_barrier_square(squares, column, row)];
 
-			ty_box_squares_at(squares, column, row, &from, &to);
-			for (uint32_t k = from; k < to; k++)
-			{
-				uint32_t thing = squares->thing[k];
-
-				if (!edge_may_meet(e, &barriers->boxes.box[thing]))
-					continue;
-				if (count == MOST_AT_ONCE && !edge_passes(e, met[--count]))
+			for (uint32_t k = first[0]; k < first[1]; k++)
+				if (!passes(e, &e->segments[squares->number[k]]))
 					return false;
-				__builtin_prefetch(&e->segments[(size_t) thing * TY_BOX_FAN]);
-				__builtin_prefetch(&e->segments[(size_t) thing * TY_BOX_FAN] + TY_BOX_FAN / 2);
-				met[count++] = thing;
-			}
 		}
-	while (count > 0)
-		if (!edge_passes(e, met[--count]))
-			return false;
 	return true;
 }
 
@@ -549,6 +552,7 @@ bool
 ty_barriers_bar(const ty_barriers *barriers, ty_position a, ty_position b, ty_position merged)
 {
 	edge e = {.segments = barriers->segments, .count = barriers->count, .a = a, .b = b, .via = merged};
+	ty_barrier_span span;
 
 	if (barriers->count == 0 || ty_same_position(a, b))
 		return false;
@@ -557,9 +561,10 @@ ty_barriers_bar(const ty_barriers *barriers, ty_position a, ty_position b, ty_po
 	/* a move by an infinitesimal reaches no whole number: nothing beyond the box of the places is met */
 	e.low = (ty_position){least(least(a.x, b.x), merged.x), least(least(a.y, b.y), merged.y)};
 	e.high = (ty_position){most(most(a.x, b.x), merged.x), most(most(a.y, b.y), merged.y)};
+	span = ty_barrier_span_of(&barriers->squares, e.low, e.high);
+	if (ty_barrier_squares_serve(&barriers->squares, span))
+		return !edge_passes_squares(&barriers->squares, span, &e);
 	e.box = ty_box_of(e.low.x, e.low.y, e.high.x, e.high.y);
-	if (ty_box_squares_serve(&barriers->squares, e.low.x, e.low.y, e.high.x, e.high.y))
-		return !edge_passes_squares(barriers, &e);
 	return !ty_boxes_search(&barriers->boxes, edge_may_meet, edge_passes, &e);
 }
 
@@ -567,4 +572,49 @@ bool
 ty_barriers_cross(const ty_barriers *barriers, ty_position a, ty_position b)
 {
 	return ty_barriers_bar(barriers, a, b, a);
+}
+
+/* ---- fetching ---- */
+
+enum
+{
+	SQUARES,
+	NUMBERS,
+	SEGMENTS,
+	FETCHES
+};
+
+static inline void
+fetch_square(const ty_barriers *barriers, size_t square, int what)
+{
+	const ty_barrier_squares *squares = &barriers->squares;
+
+	if (what == SQUARES)
+		__builtin_prefetch(&squares->first[square]);
+	else if (what == NUMBERS)
+		__builtin_prefetch(&squares->number[squares->first[square]]);
+	else
+		for (uint32_t k = squares->first[square]; k < squares->first[square + 1]; k++)
+			__builtin_prefetch(&barriers->segments[squares->number[k]]);
+}
+
+/* Each has to be waited for before it says where the next is: all of a kind are called for together. */
+void
+ty_barriers_fetch(const ty_barriers *barriers, const ty_edge_ends *edge, size_t count)
+{
+	const ty_barrier_squares *squares = &barriers->squares;
+
+	for (int what = SQUARES; what < FETCHES; what++)
+		for (size_t i = 0; i < count; i++)
+		{
+			ty_position a = edge[i].a, b = edge[i].b;
+			ty_barrier_span span = ty_barrier_span_of(squares, (ty_position){least(a.x, b.x), least(a.y, b.y)},
+													  (ty_position){most(a.x, b.x), most(a.y, b.y)});
+
+			if (!ty_barrier_squares_serve(squares, span))
+				continue;
+			for (uint32_t row = span.low_row; row <= span.high_row; row++)
+				for (uint32_t column = span.low_column; column <= span.high_column; column++)
+					fetch_square(barriers, ty_barrier_square(squares, column, row), what);
+		}
 }

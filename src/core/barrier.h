@@ -15,7 +15,7 @@
 
 #include <string.h>
 
-#include "box_squares.h"
+#include "barrier_squares.h"
 #include "boxes.h"
 #include "environment.h"
 #include "grid.h"
@@ -45,6 +45,7 @@ typedef struct ty_barrier_lines
 {
 	const ty_environment *env;
 	ty_point origin;		/* the first point: boxes are relative to it */
+	ty_point low, high;		/* of all points */
 	size_t segments;		/* of all lines, those without length too */
 	size_t count, capacity; /* of runs */
 	ty_barrier_run *runs;	/* once ended along the Hilbert curve */
@@ -68,18 +69,13 @@ void ty_barrier_lines_free(ty_barrier_lines *lines);
 
 /* ---- on the grid of a group ---- */
 
-typedef struct ty_barrier_segment
-{
-	ty_position a, b; /* they differ; a little outside of the grid where the line goes on */
-} ty_barrier_segment;
-
 struct ty_barriers
 {
 	const ty_environment *env;
 	size_t count, capacity;
 	ty_barrier_segment *segments;
-	ty_boxes boxes;			/* of TY_BOX_FAN segments each */
-	ty_box_squares squares; /* of the same boxes, for short edges */
+	ty_boxes boxes;				/* of TY_BOX_FAN segments each */
+	ty_barrier_squares squares; /* for short edges */
 };
 
 /*
@@ -99,6 +95,9 @@ bool ty_barriers_cross(const ty_barriers *barriers, ty_position a, ty_position b
  * to b but for a cell in either coordinate. Exact. As influences want it (influence.h).
  */
 bool ty_barriers_bar(const ty_barriers *barriers, ty_position a, ty_position b, ty_position merged);
+
+/* Brings what that looks at into the cache, for all of these edges side by side. As influences want it. */
+void ty_barriers_fetch(const ty_barriers *barriers, const ty_edge_ends *edge, size_t count);
 
 /* ---- on the ground ---- */
 

@@ -3,19 +3,27 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /* the largest float not above d */
 static float
 float_below(double d)
 {
 	float f;
+	int32_t bits;
 
 	if (d > FLT_MAX)
 		return FLT_MAX;
 	if (d < -FLT_MAX)
 		return -INFINITY;
 	f = (float) d;
-	return f <= d ? f : nextafterf(f, -INFINITY);
+	if (f <= d)
+		return f;
+	/* the next one towards -INFINITY; a 0 that is above d is a negative one */
+	memcpy(&bits, &f, sizeof bits);
+	bits += bits < 0 ? 1 : -1;
+	memcpy(&f, &bits, sizeof f);
+	return f;
 }
 
 ty_box

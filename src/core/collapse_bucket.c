@@ -218,6 +218,20 @@ typedef struct lookout
 	uint32_t vertex[ABREAST];
 } lookout;
 
+/* Fetches what the barriers will be asked for edges that are due. */
+static void
+fetch_barriers(const ty_run *run, const uint32_t *owner, const uint32_t *other, size_t count)
+{
+	const ty_influence *influence = run->influence;
+	ty_edge_ends edge[ABREAST];
+
+	if (influence == NULL || influence->fetch == NULL)
+		return;
+	for (size_t i = 0; i < count; i++)
+		edge[i] = (ty_edge_ends){run->vertex[owner[i]].position, run->vertex[other[i]].position};
+	influence->fetch(influence->barriers, edge, count);
+}
+
 /* Gives the vertices, which wait in bucket b, their least edges as keys, and forgets them. */
 static ty_status
 look_again(ty_run *run, uint32_t b, lookout *looked)
@@ -239,6 +253,7 @@ look_again(ty_run *run, uint32_t b, lookout *looked)
 		__builtin_prefetch(&run->queue.key[least.other]);
 	}
 	fetch_stars(run, owner, near, true);
+	fetch_barriers(run, owner, other, near);
 	for (size_t i = 0; i < near; i++)
 		if (!is_waiting(run, other[i], b)) /* else its own turn comes, or has come */
 			other[others++] = other[i];

@@ -8,17 +8,16 @@
  * A collapse therefore has to give an entry to one vertex only, the merged one; edges that flips make between two
  * others are covered as they are made.
  *
- * Without influences a vertex that gets an entry leaves edges aside that their other ends cover: its entry is the least
- * of the rest, none where there is no rest. So the invariant holds, whatever the order, for an end that gets a greater
- * entry later is answerable for the edge then. To enter the least of all its edges meant to look again half as often
- * more.
+ * A vertex that gets an entry leaves edges aside that their other ends cover: its entry is the least of the rest, none
+ * where there is no rest. So the invariant holds, whatever the order, for an end that gets a greater entry later is
+ * answerable for the edge then. To enter the least of all its edges meant to look again half as often more.
  *
  * A vertex's key is the cost of its entry, rounded down to a float. Entries are not removed when a vertex gets
  * another: one that differs from the key counts no longer. (One that equals it by chance does no harm: it is
  * checked like any other.)
  *
  * Whether a barrier is in the way of an edge is asked when its entry is the least of all. If so, the next edge of its
- * vertex takes its place: for the ones before it there are entries of their other ends.
+ * vertex takes its place: none before it is left to collapse, or an entry would come before.
  *
  * Entries of least cost are in a heap, all others wait in buckets by their keys, as bounds (collapse_bucket.c).
  */
@@ -194,23 +193,27 @@ covers(const ty_queue *queue, uint32_t w, double cost)
 	return queue->key[w] < key_of_cost(cost) + (cost > queue->limit.cost);
 }
 
-/* The least edge at v by ty_before's order, which among edges of one vertex is that of the other ends. */
+/* The least edge at v above one, by ty_before's order, which among edges of one vertex is that of the other ends. */
 static __attribute__((noinline)) ty_edge
-compare_exactly(const ty_run *run, uint32_t v, bool uncovered)
+compare_exactly(const ty_run *run, uint32_t v, ty_edge above, bool uncovered)
 {
 	uint32_t first = run->vertex[v].edge, h = first, w;
 	ty_edge least = {INFINITY, v, TY_NONE};
 
 	do
 	{
-		h = ty_step_around(&run->mesh, h, &w);
-		if (w != TY_GHOST)
-		{
-			ty_edge e = {ty_plain_cost(run, v, w), v, w};
+		ty_edge e;
 
-			if (!(uncovered && covers(&run->queue, w, e.cost)) && ty_before(e, least))
-				least = e;
-		}
+		h = ty_step_around(&run->mesh, h, &w);
+		if (w == TY_GHOST)
+			continue;
+		e = (ty_edge){ty_plain_cost(run, v, w), v, w};
+		if (!ty_before(e, least)) /* then influences, which only lengthen it, need not be asked */
+			continue;
+		if (run->influence != NULL)
+			e.cost = ty_influenced_cost(run, v, w, e.cost);
+		if (ty_before(e, least) && ty_before(above, e) && !(uncovered && covers(&run->queue, w, e.cost)))
+			least = e;
 	} while (h != first);
 	return least;
 }
@@ -249,16 +252,17 @@ covers_squared(const ty_queue *queue, uint32_t w, double squared, bool beyond)
 
 /*
  * The hottest loop of all. Which edge is the least would be guessed wrong twice a star, so there is no branch: squared
- * costs, which are not negative, compare as their bits do. They are not exact; so where two are nearly alike all are
- * compared once more. Roots would take as long as all the rest.
+ * costs, which are not negative, compare as their bits do. They are not exact; so where two are nearly alike, or one is
+ * nearly as the bound that it has to be above, all are compared once more. Roots would take as long as all the rest.
  */
 static inline __attribute__((always_inline)) ty_edge
-least_plain_edge(const ty_run *run, uint32_t v, bool uncovered)
+least_plain_edge(const ty_run *run, uint32_t v, ty_edge above, bool uncovered)
 {
 	const ty_vertex *p = &run->vertex[v];
 	uint32_t first = p->edge, h = first, other = TY_NONE, w;
 	int64_t least = INT64_MAX, second = INT64_MAX;
 	double limit = run->queue.limit.cost * run->queue.limit.cost * NEARLY;
+	double bound = above.cost * above.cost / NEARLY;
 	double factor_less_w = run->s_u * ((double) p->size - 2) + 1;
 
 	do
@@ -274,6 +278,8 @@ least_plain_edge(const ty_run *run, uint32_t v, bool uncovered)
 
 			if (uncovered)
 				bits |= covers_squared(&run->queue, w, squared, squared > limit) ? INT64_MAX : 0;
+			if (above.cost > 0)
+				bits |= squared < bound ? INT64_MAX : 0;
 			other ^= (other ^ w) & -(uint32_t) (bits < least); /* gcc makes a branch of ?: here */
 			larger = bits < least ? least : bits;
 			least = bits < least ? bits : least;
@@ -282,56 +288,43 @@ least_plain_edge(const ty_run *run, uint32_t v, bool uncovered)
 	} while (h != first);
 	if (other == TY_NONE)
 		return (ty_edge){INFINITY, v, TY_NONE};
-	if (number_of(second) <= number_of(least) * NEARLY)
-		return compare_exactly(run, v, uncovered);
+	if (number_of(second) <= number_of(least) * NEARLY || number_of(least) <= bound * NEARLY * NEARLY)
+		return compare_exactly(run, v, above, uncovered);
 	return (ty_edge){ty_plain_cost(run, v, other), v, other};
 }
 
-static __attribute__((noinline)) ty_edge
-least_influenced_edge(const ty_run *run, uint32_t v, ty_edge above)
+static const ty_edge below_all = {0, 0, TY_NONE};
+
+/* The least edge at v above a bound, or above an edge of its; uncovered: of those that their other ends do not cover. */
+static inline __attribute__((always_inline)) ty_edge
+least_edge(const ty_run *run, uint32_t v, ty_edge above, bool uncovered)
 {
-	ty_edge least = {INFINITY, v, TY_NONE};
-	uint32_t first = run->vertex[v].edge, h = first;
-
-	do
-	{
-		uint32_t w = ty_target(&run->mesh, h);
-
-		if (w != TY_GHOST)
-		{
-			ty_edge e = {ty_plain_cost(run, v, w), v, w};
-
-			if (!ty_before(e, least)) /* then influences, which only lengthen it, need not be asked */
-				continue;
-			e.cost = ty_influenced_cost(run, v, w, e.cost);
-			if (ty_before(e, least) && ty_before(above, e))
-				least = e;
-		}
-	} while ((h = ty_next_around(&run->mesh, h)) != first);
-	return least;
+	if (run->mesh.live < 2)
+		return (ty_edge){INFINITY, v, TY_NONE};
+	if (run->influence == NULL)
+		return least_plain_edge(run, v, below_all, uncovered);
+	if (run->importance != NULL || run->rows != NULL || above.other != TY_NONE)
+		return compare_exactly(run, v, above, uncovered);
+	return least_plain_edge(run, v, above, uncovered);
 }
 
 ty_edge
 ty_next_edge(const ty_run *run, uint32_t v, ty_edge above)
 {
-	if (run->mesh.live < 2)
-		return (ty_edge){INFINITY, v, TY_NONE};
-	return run->influence == NULL ? least_plain_edge(run, v, true) : least_influenced_edge(run, v, above);
+	return least_edge(run, v, above, true);
 }
 
 /* Covered ones too: waiting vertices cover each other's. */
 ty_edge
 ty_waiting_edge(const ty_run *run, uint32_t v)
 {
-	if (run->influence == NULL && run->mesh.live >= 2)
-		return least_plain_edge(run, v, false);
-	return ty_next_edge(run, v, ty_waiting_floor(run, v));
+	return least_edge(run, v, ty_waiting_floor(run, v), false);
 }
 
 ty_edge
 ty_least_edge(const ty_run *run, uint32_t v)
 {
-	return ty_next_edge(run, v, (ty_edge){0, v, TY_NONE});
+	return ty_next_edge(run, v, below_all);
 }
 
 /* Not the key's bound alone: then an edge of a cost like its key's, once found barred, would come again and again. */

@@ -462,6 +462,7 @@ ty_group_collapse(const ty_environment *env, ty_group *g, const ty_input *input,
 	if (barriers.count > 0)
 	{
 		influence.crosses = ty_barriers_bar;
+		influence.fetch = ty_barriers_fetch;
 		influence.barriers = &barriers;
 	}
 	if (alignment > 0)

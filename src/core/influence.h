@@ -14,6 +14,11 @@
 /* lines that no collapse crosses; known to whoever made them */
 typedef struct ty_barriers ty_barriers;
 
+typedef struct ty_edge_ends
+{
+	ty_position a, b;
+} ty_edge_ends;
+
 typedef struct ty_influence
 {
 	/*
@@ -35,6 +40,8 @@ typedef struct ty_influence
 	 * merged: that is on the edge, but for rounding. The same with a and b exchanged. NULL: no barriers.
 	 */
 	bool (*crosses)(const ty_barriers *barriers, ty_position a, ty_position b, ty_position merged);
+	/* Brings what crosses looks at into the cache, for edges that it will be asked about. Set where crosses is. */
+	void (*fetch)(const ty_barriers *barriers, const ty_edge_ends *edge, size_t count);
 	const ty_barriers *barriers;
 } ty_influence;
 

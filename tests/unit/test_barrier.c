@@ -276,8 +276,10 @@ as_if_every_segment_were_tried(void)
 			CHECK(ty_barriers_cross(&barriers, a, b) == expected, "set %zu: (%d %d, %d %d), expected %d", k, a.x, a.y,
 				  b.x, b.y, expected);
 			crossed += expected;
-			by_squares += ty_box_squares_serve(&barriers.squares, a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y,
-											   a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y);
+			by_squares += ty_barrier_squares_serve(
+				&barriers.squares,
+				ty_barrier_span_of(&barriers.squares, (ty_position){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y},
+								   (ty_position){a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y}));
 			asked++;
 		}
 		free_both(&lines, &barriers);
@@ -659,7 +661,7 @@ merges_equal_the_reference(void)
 			ty_stop stop = {(size_t) random_between(&random, 1, (int64_t) n), 0};
 			ty_barrier_lines lines;
 			ty_barriers barriers;
-			ty_influence influence = {.crosses = ty_barriers_bar, .barriers = &barriers};
+			ty_influence influence = {.crosses = ty_barriers_bar, .fetch = ty_barriers_fetch, .barriers = &barriers};
 			const char *difference;
 
 			small_set(kind, &random, position, n);
@@ -688,7 +690,7 @@ no_member_is_carried_across(void)
 	ty_grid grid = grid_of(1, 0, 0);
 	ty_barrier_lines lines;
 	ty_barriers barriers;
-	ty_influence influence = {.crosses = ty_barriers_bar, .barriers = &barriers};
+	ty_influence influence = {.crosses = ty_barriers_bar, .fetch = ty_barriers_fetch, .barriers = &barriers};
 	ty_sequence sequence;
 	double side = 20000;
 
