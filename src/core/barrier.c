@@ -107,7 +107,17 @@ typedef struct run_order
 	uint32_t *order; /* by key */
 	ty_box *box;
 	ty_barrier_run *sorted;
+	ty_point *points; /* of all runs, one after the other */
 } run_order;
+
+#define AHEAD 8 /* runs: they follow one another on the ground, but lie anywhere in memory */
+
+static inline void
+fetch_run(const ty_barrier_run *run)
+{
+	__builtin_prefetch(run->xy);
+	__builtin_prefetch(run->xy + (size_t) (run->points - 1) * run->stride);
+}
 
 static bool
 allocate_order(const ty_barrier_lines *lines, run_order *o)
@@ -116,7 +126,8 @@ allocate_order(const ty_barrier_lines *lines, run_order *o)
 	o->order = ty_allocate_array(lines->env, lines->count, sizeof *o->order);
 	o->box = ty_allocate_array(lines->env, lines->count, sizeof *o->box);
 	o->sorted = ty_allocate_array(lines->env, lines->count, sizeof *o->sorted);
-	return o->key != NULL && o->order != NULL && o->box != NULL && o->sorted != NULL;
+	o->points = ty_allocate_array(lines->env, lines->segments + lines->count, sizeof *o->points);
+	return o->points != NULL && o->key != NULL && o->order != NULL && o->box != NULL && o->sorted != NULL;
 }
 
 /* Points are read once, in the order in which they lie in memory. */
@@ -138,18 +149,28 @@ measure_runs(const ty_barrier_lines *lines, run_order *o)
 	return TY_OK;
 }
 
+/* Runs that are near one another on the ground are so in memory from now on, with their points. */
 static void
 arrange_runs(ty_barrier_lines *lines, run_order *o)
 {
 	ty_barrier_run *unsorted = lines->runs;
+	ty_point *to = o->points;
 
 	for (size_t i = 0; i < lines->count; i++)
 	{
-		o->sorted[i] = unsorted[o->order[i]];
+		const ty_barrier_run *run = &unsorted[o->order[i]];
+
+		if (i + AHEAD < lines->count)
+			fetch_run(&unsorted[o->order[i + AHEAD]]);
+		o->sorted[i] = (ty_barrier_run){(const unsigned char *) to, sizeof *to, run->points};
+		for (uint32_t k = 0; k < run->points; k++)
+			*to++ = ty_run_point(run, k);
 		lines->boxes.box[i] = o->box[o->order[i]];
 	}
 	lines->runs = o->sorted;
+	lines->points = o->points;
 	lines->capacity = lines->count;
+	o->points = NULL;
 	o->sorted = unsorted;
 }
 
@@ -178,6 +199,7 @@ ty_barrier_lines_end(ty_barrier_lines *lines)
 	ty_release(lines->env, o.order);
 	ty_release(lines->env, o.box);
 	ty_release(lines->env, o.sorted);
+	ty_release(lines->env, o.points);
 	return status;
 }
 
@@ -185,6 +207,7 @@ void
 ty_barrier_lines_free(ty_barrier_lines *lines)
 {
 	ty_release(lines->env, lines->runs);
+	ty_release(lines->env, lines->points);
 	ty_boxes_free(lines->env, &lines->boxes);
 	*lines = (ty_barrier_lines){.env = lines->env};
 }
@@ -321,15 +344,6 @@ add_segment(ty_barriers *barriers, ty_barrier_segment s)
 	return TY_OK;
 }
 
-static inline void
-fetch_run(const ty_barrier_run *run)
-{
-	__builtin_prefetch(run->xy);
-	__builtin_prefetch(run->xy + (size_t) (run->points - 1) * run->stride);
-}
-
-#define AHEAD 8 /* runs: they follow one another on the ground, but lie anywhere in memory */
-
 static bool
 fit_run(void *context, size_t thing)
 {
@@ -337,8 +351,6 @@ fit_run(void *context, size_t thing)
 	const ty_barrier_run *run = &f->lines->runs[thing];
 	line_end last = end_on_grid(f->grid, ty_run_point(run, 0));
 
-	if (thing + AHEAD < f->lines->count)
-		fetch_run(run + AHEAD);
 	for (uint32_t i = 1; i < run->points && f->status == TY_OK; i++)
 	{
 		line_end next = end_on_grid(f->grid, ty_run_point(run, i));

@@ -49,6 +49,7 @@ typedef struct ty_barrier_lines
 	size_t segments;		/* of all lines, those without length too */
 	size_t count, capacity; /* of runs */
 	ty_barrier_run *runs;	/* once ended along the Hilbert curve */
+	ty_point *points;		/* of these; none before the end */
 	ty_boxes boxes;			/* of the runs; none before the end */
 } ty_barrier_lines;
 
