@@ -500,6 +500,7 @@ look_for_barriers(void *context, int argument, Datum value, Oid type, bool per_q
 {
 	barrier_search *search = context;
 	bool options = type_is_rowtype(type);
+	Datum constant = per_query ? value : (Datum) 0;
 
 	if (argument == 0 || (!options && get_typlen(type) != -1))
 		return false;
@@ -508,7 +509,7 @@ look_for_barriers(void *context, int argument, Datum value, Oid type, bool per_q
 	if (value == (Datum) 0 || !ty_same_barriers(ty_check_barriers(value), search->hash))
 		return false;
 	search->found = ty_keep_barriers_datum(search->cache, per_query ? search->long_context : search->context,
-										   search->hash, value, per_query);
+										   search->hash, value, constant);
 	return true;
 }
 
@@ -546,7 +547,7 @@ find_barriers(FunctionCallInfo fcinfo, MemoryContext context, const ty_variant *
 		return NULL;
 	set = ty_find_barriers(cache, context, hash);
 	if (set == NULL && b->barriers != NULL)
-		set = ty_keep_barriers(cache, context, hash, b->barriers->payload, b->barriers->size, false);
+		set = ty_keep_barriers(cache, context, hash, b->barriers->payload, b->barriers->size);
 	if (set == NULL && ty_visit_partial_arguments(fcinfo, look_for_barriers, &search))
 		set = search.found;
 	if (set == NULL)

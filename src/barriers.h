@@ -23,7 +23,7 @@ typedef struct ty_barrier_set
 	bool constant; /* for the query: whoever has the plan can find it */
 	bool indexed;
 	size_t size;
-	unsigned char *payload; /* the stored geometry, which lines refer to */
+	const unsigned char *payload; /* the stored geometry, which lines refer to */
 	ty_barrier_lines lines;
 } ty_barrier_set;
 
@@ -58,13 +58,16 @@ extern ty_barrier_set *ty_find_barriers(const ty_barrier_cache *cache, MemoryCon
 /* Whether a set has this hash and lives as long as the context. */
 extern bool ty_barriers_serve(const ty_barrier_set *set, MemoryContext context, ty_barrier_hash hash);
 
-/* A new set of the bytes, in a child of the given context; with that it leaves the cache again. */
+/* A new set of a copy of the bytes, in a child of the given context; with that it leaves the cache again. */
 extern ty_barrier_set *ty_keep_barriers(ty_barrier_cache *cache, MemoryContext context, ty_barrier_hash hash,
-										const void *payload, size_t size, bool constant);
+										const void *payload, size_t size);
 
-/* The same for a geometry. */
+/*
+ * The same for a geometry. constant: the argument that it is or lies in, where that is constant for the query (a
+ * constant of the plan or a parameter, whose value stays where it is); else 0. Of such a one there is no copy.
+ */
 extern ty_barrier_set *ty_keep_barriers_datum(ty_barrier_cache *cache, MemoryContext context, ty_barrier_hash hash,
-											  Datum geometry, bool constant);
+											  Datum geometry, Datum constant);
 
 /* The set's lines; they are read and indexed when a group is first typified with them. NULL for no set. */
 extern const ty_barrier_lines *ty_lines_of_barriers(ty_barrier_set *set);

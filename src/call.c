@@ -144,23 +144,38 @@ hash_of_barriers_argument(ty_call *call, const NullableDatum *arguments)
 	return call->barriers_argument;
 }
 
-static ty_parameters
-parse(ty_call *call, const NullableDatum *arguments)
+/* Scale, s_u and options. Options that are constant for the query are looked at once: they may have large barriers. */
+static void
+resolve(ty_call *call, const NullableDatum *arguments)
 {
 	bool options_given = is_given(call, arguments, OPTIONS);
 	Datum options = options_given ? arguments[OPTIONS].value : (Datum) 0;
 	double s_u = call->given > S_U ? DatumGetFloat8(arguments[S_U].value) : 0;
-	ty_barrier_hash barriers = hash_of_barriers_argument(call, arguments);
-	ty_parameters parameters;
 
 	if (call->with_scale && arguments[SCALE].isnull)
 		ty_refuse_null("scale");
 	if (call->given > S_U && arguments[S_U].isnull)
 		ty_refuse_null("s_u");
-	if (call->with_scale)
-		ty_resolve_parameters(DatumGetFloat8(arguments[SCALE].value), s_u, options, !options_given, &parameters);
+	if (call->parsed && call->constant[OPTIONS])
+	{
+		ty_set_s_u(&call->resolved, s_u);
+		if (call->with_scale)
+			ty_set_scale(&call->resolved, DatumGetFloat8(arguments[SCALE].value));
+	}
+	else if (call->with_scale)
+		ty_resolve_parameters(DatumGetFloat8(arguments[SCALE].value), s_u, options, !options_given, &call->resolved);
 	else
-		ty_resolve_hierarchy_parameters(s_u, options, !options_given, &parameters);
+		ty_resolve_hierarchy_parameters(s_u, options, !options_given, &call->resolved);
+}
+
+static ty_parameters
+parse(ty_call *call, const NullableDatum *arguments)
+{
+	ty_barrier_hash barriers = hash_of_barriers_argument(call, arguments);
+	ty_parameters parameters;
+
+	resolve(call, arguments);
+	parameters = call->resolved;
 	if (ty_no_barriers(barriers))
 		return parameters;
 	if (!ty_no_barriers(parameters.barriers))
@@ -179,13 +194,13 @@ find_barriers(ty_call *call, const NullableDatum *arguments)
 {
 	ty_barrier_hash hash = call->parameters.barriers;
 	bool argument = is_given(call, arguments, BARRIERS) && ty_same_barriers(call->barriers_argument, hash);
-	bool constant = call->constant[argument ? BARRIERS : OPTIONS];
+	int from = argument ? BARRIERS : OPTIONS;
+	Datum value = arguments[from].value, constant = call->constant[from] ? value : (Datum) 0;
 	ty_barrier_set *set = ty_find_barriers(&call->barriers, call->group_context, hash);
 
 	if (set == NULL)
-		set = ty_keep_barriers_datum(
-			&call->barriers, constant ? call->context : call->group_context, hash,
-			argument ? arguments[BARRIERS].value : ty_barriers_of_options(arguments[OPTIONS].value), constant);
+		set = ty_keep_barriers_datum(&call->barriers, call->constant[from] ? call->context : call->group_context, hash,
+									 argument ? value : ty_barriers_of_options(value), constant);
 	call->barriers.current = set;
 }
 

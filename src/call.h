@@ -30,6 +30,7 @@ typedef struct ty_call
 	bool with_scale;				  /* false: a hierarchy's, whose first argument is not looked at */
 	bool parsed;
 	NullableDatum arguments[TY_CALL_ARGUMENTS]; /* what parameters were parsed from; unused where constant */
+	ty_parameters resolved;						/* once parsed: scale, s_u and options, without the argument barriers */
 	ty_parameters parameters;
 	ty_barrier_cache barriers;		   /* current: those of the parameters, if they have any */
 	ty_barrier_hash barriers_argument; /* once parsed */

@@ -246,6 +246,14 @@ ty_barriers_of_options(Datum composite)
 	return options.value[OPTION_BARRIERS];
 }
 
+void
+ty_set_s_u(ty_parameters *p, double s_u)
+{
+	if (!(s_u >= 0 && s_u <= 1))
+		ty_refuse_value("s_u", s_u, "between 0 and 1");
+	p->s_u = s_u;
+}
+
 /* All but the scale. */
 static void
 resolve_options(double s_u, Datum composite, bool composite_null, ty_parameters *p)
@@ -261,9 +269,7 @@ resolve_options(double s_u, Datum composite, bool composite_null, ty_parameters 
 	}
 	memset(p, 0, sizeof(*p));
 	apply_options(&options, p);
-	if (!(s_u >= 0 && s_u <= 1))
-		ty_refuse_value("s_u", s_u, "between 0 and 1");
-	p->s_u = s_u;
+	ty_set_s_u(p, s_u);
 }
 
 void

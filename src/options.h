@@ -22,8 +22,9 @@ extern void ty_resolve_parameters(double scale, double s_u, Datum options, bool 
  */
 extern void ty_resolve_hierarchy_parameters(double s_u, Datum options, bool options_null, ty_parameters *parameters);
 
-/* Another scale for parameters that were resolved and not brought to the ground; checked like the first. */
+/* Another scale or s_u for parameters that were resolved and not brought to the ground; checked like the first. */
 extern void ty_set_scale(ty_parameters *p, double scale);
+extern void ty_set_s_u(ty_parameters *p, double s_u);
 
 /* The lines of options whose parameters have barriers. */
 extern Datum ty_barriers_of_options(Datum options);

@@ -298,7 +298,7 @@ variant_of_image(const state_image *image, const char *barriers)
 
 	if (image->barriers_size > 0)
 		v.barriers = ty_keep_barriers(palloc0(sizeof(ty_barrier_cache)), CurrentMemoryContext,
-									  image->parameters.barriers, barriers, image->barriers_size, false);
+									  image->parameters.barriers, barriers, image->barriers_size);
 	return v;
 }
 
