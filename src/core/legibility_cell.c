@@ -164,45 +164,36 @@ survey(ty_ladder *l, uint32_t i, double reach)
 	return ty_survey(&l->around, l->sites[i].home, l->line_limit);
 }
 
-/* Whether the disc that is as wide as the site, as small as it may become, comes to a place with room for it. */
-static ty_status
-disc_finds_room(ty_ladder *l, uint32_t i, bool *room)
+/* Whether there is room for the disc that is as wide as the site, as small as it may become. */
+static bool
+disc_finds_room(ty_ladder *l, const walker *least)
 {
-	walker w = walker_of(l, i, l->sites[i].least);
-	ty_status status;
+	walker disc = *least;
 	ty_point moved;
 
-	w.radius = w.box.half_width;
-	w.is_disc = true;
-	status = survey(l, i, reach_of(&w));
-	*room = status == TY_OK && finds_room(l, &w, &moved);
-	return status;
+	disc.radius = least->box.half_width;
+	disc.is_disc = true;
+	return finds_room(l, &disc, &moved);
 }
 
-/* Where lines are in the way of the site at home, it takes a seat. *room: there is one. */
-static ty_status
-take_seat(ty_ladder *l, uint32_t i, bool *room)
+/* Where lines are in the way of the site at home, it takes a seat. False: there is none. */
+static bool
+take_seat(ty_ladder *l, uint32_t i, const walker *home, const walker *own, const walker *least)
 {
 	ty_site *s = &l->sites[i];
-	walker home = walker_at_home(l, i), own = walker_of(l, i, s->own), least = walker_of(l, i, s->least);
-	ty_status status = survey(l, i, fmax(reach_of(&home), fmax(reach_of(&own), reach_of(&least))));
 	ty_point moved;
 
-	*room = true;
-	if (status != TY_OK || stands_clear(l, &home))
-		return status;
-	if (finds_room(l, &own, &moved))
+	if (stands_clear(l, home))
+		return true;
+	if (finds_room(l, own, &moved))
 		s->size = fmin(s->size, 1);
-	else if (s->least.length < s->own.length && finds_room(l, &least, &moved))
+	else if (s->least.length < s->own.length && finds_room(l, least, &moved))
 		s->size = 0;
 	else
-		*room = false;
-	if (*room)
-	{
-		l->place[i].moved = moved;
-		ty_place_box(l, i);
-	}
-	return status;
+		return false;
+	l->place[i].moved = moved;
+	ty_place_box(l, i);
+	return true;
 }
 
 /* Whether the site has room. */
@@ -210,14 +201,14 @@ static ty_status
 look_for_room(ty_ladder *l, uint32_t i, bool *room)
 {
 	const ty_site *s = &l->sites[i];
+	walker home = walker_at_home(l, i), own = walker_of(l, i, s->own), least = walker_of(l, i, s->least);
 	ty_status status;
 
 	*room = s->fixed || ty_in_row(l, i) || ty_on_rail(s);
 	if (*room)
 		return TY_OK;
-	status = disc_finds_room(l, i, room);
-	if (status == TY_OK && *room)
-		status = take_seat(l, i, room);
+	status = survey(l, i, fmax(reach_of(&home), fmax(reach_of(&own), reach_of(&least))));
+	*room = status == TY_OK && disc_finds_room(l, &least) && take_seat(l, i, &home, &own, &least);
 	l->body[i].clear = *room;
 	return status;
 }

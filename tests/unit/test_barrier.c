@@ -557,7 +557,7 @@ memory_is_given_back(void)
 	make_lines(&random, MOST_POINTS, 1000);
 	gather(&env, &lines);
 	of_lines = counter.used;
-	CHECK(of_lines < 16 * lines.segments, "%zu bytes for %zu segments", of_lines, lines.segments);
+	CHECK(of_lines < 32 * lines.segments, "%zu bytes for %zu segments", of_lines, lines.segments);
 	CHECK(ty_barriers_fit(&env, &lines, &grid, corners, 2, &barriers) == TY_OK, "fit");
 	CHECK(counter.used - of_lines < 32 * lines.segments, "%zu bytes for %zu segments", counter.used - of_lines,
 		  lines.segments);
