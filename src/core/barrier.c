@@ -517,12 +517,17 @@ edge_may_meet(const void *context, const ty_box *box)
 	return dx * low_y - dy * low_x <= e->near && dx * high_y - dy * high_x >= -e->near;
 }
 
-/* Whether a segment leaves the edge and the way alone. */
+/*
+ * Whether a segment leaves the edge and the way alone. Most do, and which of four sides their box is on would be guessed
+ * wrong: so there is one branch. Differences of coordinates are below 2^31.
+ */
 static inline bool
 passes(const edge *e, const ty_barrier_segment *s)
 {
-	return most(s->a.x, s->b.x) < e->low.x || least(s->a.x, s->b.x) > e->high.x || most(s->a.y, s->b.y) < e->low.y ||
-		   least(s->a.y, s->b.y) > e->high.y || !bars(e, s);
+	int32_t beyond = (most(s->a.x, s->b.x) - e->low.x) | (e->high.x - least(s->a.x, s->b.x)) |
+					 (most(s->a.y, s->b.y) - e->low.y) | (e->high.y - least(s->a.y, s->b.y));
+
+	return beyond < 0 || !bars(e, s);
 }
 
 /* Eight segments; false, which ends the search, when one lies on the edge or on the way. */
@@ -543,14 +548,14 @@ static bool
 edge_passes_squares(const ty_barrier_squares *squares, ty_barrier_span span, const edge *e)
 {
 	for (uint32_t row = span.low_row; row <= span.high_row; row++)
-		for (uint32_t column = span.low_column; column <= span.high_column; column++)
-		{
-			const uint32_t *first = &squares->first[ty_barrier_square(squares, column, row)];
+	{
+		const uint32_t *from, *to;
 
-			for (uint32_t k = first[0]; k < first[1]; k++)
-				if (!passes(e, &e->segments[squares->number[k]]))
-					return false;
-		}
+		ty_barrier_row(squares, span, row, &from, &to);
+		for (uint32_t k = *from; k < *to; k++)
+			if (!passes(e, &e->segments[squares->number[k]]))
+				return false;
+	}
 	return true;
 }
 
@@ -597,16 +602,16 @@ enum
 };
 
 static inline void
-fetch_square(const ty_barriers *barriers, size_t square, int what)
+fetch_row(const ty_barriers *barriers, const uint32_t *from, const uint32_t *to, int what)
 {
 	const ty_barrier_squares *squares = &barriers->squares;
 
 	if (what == SQUARES)
-		__builtin_prefetch(&squares->first[square]);
+		__builtin_prefetch(from);
 	else if (what == NUMBERS)
-		__builtin_prefetch(&squares->number[squares->first[square]]);
+		__builtin_prefetch(&squares->number[*from]);
 	else
-		for (uint32_t k = squares->first[square]; k < squares->first[square + 1]; k++)
+		for (uint32_t k = *from; k < *to; k++)
 			__builtin_prefetch(&barriers->segments[squares->number[k]]);
 }
 
@@ -626,7 +631,11 @@ ty_barriers_fetch(const ty_barriers *barriers, const ty_edge_ends *edge, size_t 
 			if (!ty_barrier_squares_serve(squares, span))
 				continue;
 			for (uint32_t row = span.low_row; row <= span.high_row; row++)
-				for (uint32_t column = span.low_column; column <= span.high_column; column++)
-					fetch_square(barriers, ty_barrier_square(squares, column, row), what);
+			{
+				const uint32_t *from, *to;
+
+				ty_barrier_row(squares, span, row, &from, &to);
+				fetch_row(barriers, from, to, what);
+			}
 		}
 }

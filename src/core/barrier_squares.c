@@ -1,11 +1,13 @@
 /* barrier_squares.c - see barrier_squares.h */
 #include "barrier_squares.h"
 
+#include <math.h>
 #include <string.h>
 
 #define LEAST_SEGMENTS 512 /* of fewer the tree is as quick */
 #define LEAST_BITS 3	   /* of a column of the grid */
 #define MOST_BITS 12
+#define MOST_TAKEN 8 /* squares that a segment lies in, on average */
 
 static int32_t
 least(int32_t a, int32_t b)
@@ -46,14 +48,58 @@ shift_for(const ty_barrier_segment *segment, size_t count)
 	return shift;
 }
 
+static uint32_t
+rows_of(ty_barrier_span span)
+{
+	return span.high_row - span.low_row + 1;
+}
+
+static uint32_t
+columns_of(ty_barrier_span span)
+{
+	return span.high_column - span.low_column + 1;
+}
+
+/* where a row begins */
+static double
+begin_of(const ty_barrier_squares *s, uint32_t row)
+{
+	return (double) ((int64_t) row << s->shift) - (1 << 29);
+}
+
+static uint32_t
+column_at(const ty_barrier_squares *s, double x)
+{
+	return (uint32_t) (x + (1 << 29)) >> s->shift;
+}
+
+/* The columns of a row that a segment over several rows passes through, and perhaps one more at either end. */
+static ty_barrier_span
+part_in_row(const ty_barrier_squares *s, const ty_barrier_segment *segment, ty_barrier_span span, uint32_t row)
+{
+	ty_position a = segment->a, b = segment->b;
+	double slope = ((double) b.x - a.x) / ((double) b.y - a.y);
+	double from = fmax(begin_of(s, row), least(a.y, b.y)), to = fmin(begin_of(s, row + 1), most(a.y, b.y));
+	double x_from = a.x + (from - a.y) * slope, x_to = a.x + (to - a.y) * slope;
+	uint32_t low = column_at(s, fmin(x_from, x_to) - 1), high = column_at(s, fmax(x_from, x_to) + 1);
+
+	span.low_column = low > span.low_column ? low : span.low_column;
+	span.high_column = high < span.high_column ? high : span.high_column;
+	return span;
+}
+
 /* Calls for what lies in each square: counts it, or puts the number where `first` says and moves that on. */
 static inline __attribute__((always_inline)) void
-register_segment(ty_barrier_squares *s, const ty_barrier_segment *segment, uint32_t number, bool count)
+register_segment(ty_barrier_squares *s, const ty_barrier_segment *segment, ty_barrier_span span, uint32_t number,
+				 bool count)
 {
-	ty_barrier_span span = span_of(s, segment);
+	bool is_long = rows_of(span) > 1 && columns_of(span) > 2;
 
 	for (uint32_t row = span.low_row; row <= span.high_row; row++)
-		for (uint32_t column = span.low_column; column <= span.high_column; column++)
+	{
+		ty_barrier_span part = is_long ? part_in_row(s, segment, span, row) : span;
+
+		for (uint32_t column = part.low_column; column <= part.high_column; column++)
 		{
 			size_t square = ty_barrier_square(s, column, row);
 
@@ -62,31 +108,50 @@ register_segment(ty_barrier_squares *s, const ty_barrier_segment *segment, uint3
 			else
 				s->number[s->first[square]++] = number;
 		}
+	}
+}
+
+/* Says of every square in `first` where its numbers begin. False: segments lie in too many. */
+static bool
+count_segments(const ty_barrier_segment *segment, size_t count, size_t squares, ty_barrier_squares *s)
+{
+	uint64_t left = (uint64_t) MOST_TAKEN * count;
+
+	left = left < UINT32_MAX ? left : UINT32_MAX;
+	memset(s->first, 0, (squares + 1) * sizeof *s->first);
+	for (size_t i = 0; i < count; i++)
+	{
+		ty_barrier_span span = span_of(s, &segment[i]);
+		uint64_t most = (uint64_t) 4 * rows_of(span) + columns_of(span);
+
+		most = most < ty_squares_of_span(span) ? most : ty_squares_of_span(span);
+		if (most > left)
+			return false;
+		left -= most;
+		register_segment(s, &segment[i], span, (uint32_t) i, true);
+	}
+	for (size_t k = 0; k < squares; k++)
+		s->first[k + 1] += s->first[k];
+	return true;
 }
 
 static ty_status
-fill(const ty_environment *env, const ty_barrier_segment *segment, size_t count, size_t squares, ty_barrier_squares *s)
+list_segments(const ty_environment *env, const ty_barrier_segment *segment, size_t count, size_t squares,
+			  ty_barrier_squares *s)
 {
-	ty_status status = TY_OK;
-
-	memset(s->first, 0, (squares + 1) * sizeof *s->first);
-	for (size_t i = 0; i < count; i++)
-		register_segment(s, &segment[i], (uint32_t) i, true);
-	for (size_t k = 0; k < squares; k++)
-		s->first[k + 1] += s->first[k];
 	s->number = ty_allocate_array(env, s->first[squares], sizeof *s->number);
 	if (s->number == NULL)
 		return TY_NO_MEMORY;
-	for (size_t i = 0; status == TY_OK && i < count; i++)
+	for (size_t i = 0; i < count; i++)
 	{
-		register_segment(s, &segment[i], (uint32_t) i, false);
+		register_segment(s, &segment[i], span_of(s, &segment[i]), (uint32_t) i, false);
 		if (ty_interrupted_at(env, i))
-			status = TY_INTERRUPTED;
+			return TY_INTERRUPTED;
 	}
 	/* each now says where the next one begins */
 	memmove(s->first + 1, s->first, squares * sizeof *s->first);
 	s->first[0] = 0;
-	return status;
+	return TY_OK;
 }
 
 ty_status
@@ -95,7 +160,6 @@ ty_barrier_squares_build(const ty_environment *env, const ty_barrier_segment *se
 {
 	int bits = LEAST_BITS;
 	size_t squares;
-	uint64_t taken = 0;
 
 	*s = (ty_barrier_squares){0};
 	if (count < LEAST_SEGMENTS)
@@ -105,12 +169,13 @@ ty_barrier_squares_build(const ty_environment *env, const ty_barrier_segment *se
 	squares = (size_t) 1 << 2 * bits;
 	s->mask = ((uint32_t) 1 << bits) - 1;
 	s->shift = shift_for(segment, count);
-	for (size_t i = 0; i < count; i++)
-		taken += ty_squares_of_span(span_of(s, &segment[i]));
-	if (taken > TY_MOST_SQUARES * (uint64_t) count || taken > UINT32_MAX)
-		return TY_OK;
 	s->first = ty_allocate_array(env, squares + 1, sizeof *s->first);
-	return s->first == NULL ? TY_NO_MEMORY : fill(env, segment, count, squares, s);
+	if (s->first == NULL)
+		return TY_NO_MEMORY;
+	if (count_segments(segment, count, squares, s))
+		return list_segments(env, segment, count, squares, s);
+	ty_barrier_squares_free(env, s);
+	return TY_OK;
 }
 
 void

@@ -1,6 +1,6 @@
 /*
  * barrier_squares.h - which of many segments may meet a small box: squares of whole numbers, each with the segments
- * whose boxes meet it.
+ * that pass through it, and some beside it.
  *
  * For segments that do not differ much in size, and much quicker then than a tree of boxes (boxes.h), which serves all
  * others. A grid of squares repeats itself over the plane: segments from far away may be among those found.
@@ -30,7 +30,7 @@ ty_status ty_barrier_squares_build(const ty_environment *env, const ty_barrier_s
 								   ty_barrier_squares *squares);
 void ty_barrier_squares_free(const ty_environment *env, ty_barrier_squares *squares);
 
-#define TY_MOST_SQUARES 16 /* that are searched, or that a segment lies in on average */
+#define TY_MOST_SQUARES 16 /* that are searched */
 
 /* columns and rows, those at both ends too */
 typedef struct ty_barrier_span
@@ -57,18 +57,27 @@ ty_squares_of_span(ty_barrier_span span)
 	return (span.high_column - span.low_column + (uint64_t) 1) * (span.high_row - span.low_row + (uint64_t) 1);
 }
 
-/* Whether a box is small enough to be looked for. */
+/* Whether a box is small enough to be looked for; not where the grid begins anew within it. */
 static inline bool
 ty_barrier_squares_serve(const ty_barrier_squares *squares, ty_barrier_span span)
 {
-	return squares->first != NULL && ty_squares_of_span(span) <= TY_MOST_SQUARES;
+	return squares->first != NULL && ty_squares_of_span(span) <= TY_MOST_SQUARES &&
+		   (span.low_column & squares->mask) <= (span.high_column & squares->mask);
 }
 
-/* Where squares->first says what lies in a square: up to where the next one begins. */
 static inline size_t
 ty_barrier_square(const ty_barrier_squares *squares, uint32_t column, uint32_t row)
 {
 	return (size_t) (row & squares->mask) * (squares->mask + 1) + (column & squares->mask);
+}
+
+/* Where squares->first says what lies in a row of squares that serve: from *from up to where *to says. */
+static inline void
+ty_barrier_row(const ty_barrier_squares *squares, ty_barrier_span span, uint32_t row, const uint32_t **from,
+			   const uint32_t **to)
+{
+	*from = &squares->first[ty_barrier_square(squares, span.low_column, row)];
+	*to = *from + (span.high_column - span.low_column) + 1;
 }
 
 #endif
