@@ -146,6 +146,8 @@ double ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away);
 /* The same for it as the box, whose half diagonal is the radius. */
 double ty_box_line_lack(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radius, ty_point *away);
 bool ty_is_line_conflict(const ty_ladder *l, double lack);
+/* Whether a line is nearer to the site than it may be. */
+bool ty_is_by_line(const ty_ladder *l, uint32_t i);
 /* Whether a fixed site, which does not yield, is too near to a line. */
 bool ty_fixed_by_line(const ty_ladder *l, uint32_t i);
 /*

@@ -1,6 +1,7 @@
 /* legibility_line.c - sites and the lines that they keep away from: see the head of legibility.c. */
 #include "legibility_internal.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "clearance.h"
@@ -119,10 +120,12 @@ is_beyond(double reach, ty_point a, ty_point b)
 
 /*
  * How near a line comes to the box, or limit; *away: in which direction it would have to go. radius: half its diagonal.
- * Segments come from the nearest to home on: what is farther than the nearest so far is not looked at.
+ * Segments come from the nearest to home on: what is farther than the nearest so far is not looked at, nor is any other
+ * once one is nearer than enough.
  */
-static double
-line_distance(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radius, double limit, ty_point *away)
+static inline double
+line_distance(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radius, double limit, double enough,
+			  ty_point *away)
 {
 	const ty_point home = l->sites[i].home;
 	ty_point centre = {l->origin.x + box->x, l->origin.y + box->y};
@@ -130,7 +133,7 @@ line_distance(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radiu
 	double distance, reach = (radius + limit) * (1 + 1e-6), from_home = length_of(centre.x - home.x, centre.y - home.y);
 	size_t count = lines_within(l, reach + from_home);
 
-	for (size_t k = 0; k < count && c.squared > 0; k++)
+	for (size_t k = 0; k < count && c.squared > enough * enough; k++)
 	{
 		double before = c.squared;
 		ty_point a, b;
@@ -163,13 +166,13 @@ lack_of_crossed(const ty_ladder *l, uint32_t i, const ty_oblong *box, double rad
 	ty_oblong centre = {box->x, box->y, box->ux, box->uy, 0, 0};
 
 	*away = (ty_point){-box->uy, box->ux};
-	return box->half_width + l->line_target - line_distance(l, i, &centre, 0, radius + l->line_target, away);
+	return box->half_width + l->line_target - line_distance(l, i, &centre, 0, radius + l->line_target, 0, away);
 }
 
 double
 ty_box_line_lack(const ty_ladder *l, uint32_t i, const ty_oblong *box, double radius, ty_point *away)
 {
-	double distance = line_distance(l, i, box, radius, l->line_target, away);
+	double distance = line_distance(l, i, box, radius, l->line_target, 0, away);
 
 	return distance > 0 ? l->line_target - distance : fmax(lack_of_crossed(l, i, box, radius, away), l->line_target);
 }
@@ -178,6 +181,15 @@ double
 ty_line_lack(const ty_ladder *l, uint32_t i, ty_point *away)
 {
 	return l->by_line[i] ? ty_box_line_lack(l, i, &l->body[i].box, l->body[i].radius, away) : 0;
+}
+
+bool
+ty_is_by_line(const ty_ladder *l, uint32_t i)
+{
+	const double limit = l->line_gap, enough = limit * (1 - DBL_EPSILON);
+	ty_point away;
+
+	return l->by_line[i] && line_distance(l, i, &l->body[i].box, l->body[i].radius, limit, enough, &away) < limit;
 }
 
 bool

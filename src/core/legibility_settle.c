@@ -282,11 +282,9 @@ is_in_the_way(const ty_ladder *l, uint32_t i, uint32_t j)
 static bool
 has_room(const ty_ladder *l, uint32_t i, uint32_t *obstacle)
 {
-	ty_point way;
-
 	if (*obstacle != TY_NO_SITE && is_in_the_way(l, i, *obstacle))
 		return false;
-	if (ty_is_line_conflict(l, ty_line_lack(l, i, &way)) || ty_is_across(l, i))
+	if (ty_is_by_line(l, i) || ty_is_across(l, i))
 		return false;
 	for (size_t m = 0; m < l->list_count; m++)
 		if (is_in_the_way(l, i, l->list[m]))

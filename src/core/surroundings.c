@@ -294,19 +294,18 @@ ty_survey(ty_surroundings *s, ty_point home, double limit)
 	return status;
 }
 
-/* The nearest as picked, once all are measured; count: there is none. */
+/* The nearest of those that are measured; count: there is none. */
 static size_t
 nearest_of(const ty_segment_set *set)
 {
+	const float *restrict squared = set->squared;
 	float least = INFINITY;
-	size_t nearest = set->count;
+	size_t count = set->count, nearest = 0;
 
-	for (size_t k = 0; k < set->count; k++)
-		if (set->squared[k] < least)
-		{
-			least = set->squared[k];
-			nearest = k;
-		}
+	for (size_t k = 0; k < count; k++)
+		least = squared[k] < least ? squared[k] : least;
+	while (nearest < count && squared[nearest] != least)
+		nearest++;
 	return nearest;
 }
 
