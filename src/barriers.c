@@ -188,7 +188,8 @@ new_set(ty_barrier_cache *cache, MemoryContext context, ty_barrier_hash hash, co
 	set->context = own;
 	set->hash = hash;
 	set->size = size;
-	set->payload = copy ? memcpy(MemoryContextAllocHuge(own, size), payload, size) : payload;
+	set->copy = copy ? memcpy(MemoryContextAllocHuge(own, size), payload, size) : NULL;
+	set->payload = copy ? set->copy : payload;
 	ty_geometry_visit_lines(set->payload, size, pass_by, NULL, &set->srid, &type);
 	set->cache = cache;
 	set->next = cache->first;
@@ -244,6 +245,10 @@ ty_lines_of_barriers(ty_barrier_set *set)
 	ty_geometry_visit_lines(set->payload, set->size, add_line, &set->lines, &srid, &type);
 	ty_check_status(ty_barrier_lines_end(&set->lines));
 	MemoryContextSwitchTo(old);
+	/* lines have points of their own, and a state is not sent to another process once a group of its is typified */
+	if (set->copy != NULL)
+		pfree(set->copy);
+	set->payload = set->copy = NULL;
 	set->indexed = true;
 	return &set->lines;
 }

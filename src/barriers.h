@@ -23,7 +23,8 @@ typedef struct ty_barrier_set
 	bool constant; /* for the query: whoever has the plan can find it */
 	bool indexed;
 	size_t size;
-	const unsigned char *payload; /* the stored geometry, which lines refer to */
+	const unsigned char *payload; /* the stored geometry; NULL once indexed */
+	unsigned char *copy;		  /* ... where it is the set's own */
 	ty_barrier_lines lines;
 } ty_barrier_set;
 

@@ -256,6 +256,7 @@ ty_state_serialize(const ty_state *s)
 	if (g.importance != NULL)
 		memcpy(at + sizeof(image) + buildings_size, g.importance, importance_size);
 	write_outlines(&g, at + sizeof(image) + buildings_size + importance_size);
+	Assert(barriers_size == 0 || v->barriers->payload != NULL);
 	if (barriers_size > 0)
 		memcpy(at + size - VARHDRSZ - barriers_size, v->barriers->payload, barriers_size);
 	return value;

@@ -54,7 +54,7 @@ typedef struct ty_barrier_lines
 } ty_barrier_lines;
 
 /*
- * Lines are handed over one by one; the coordinates must stay where they are as long as the lines are used:
+ * Lines are handed over one by one; the coordinates must stay where they are until the end:
  *
  *     ty_barrier_lines_begin(&lines, env);
  *     status = ty_barrier_lines_add(&lines, xy, stride, n); ...	// a polygon ring is a line

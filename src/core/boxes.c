@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* the largest float not above d */
-static float
+/* the largest float not above d; whether d is rounded up would be guessed wrong every other time, so there is no branch */
+static inline float
 float_below(double d)
 {
 	float f;
@@ -17,11 +17,9 @@ float_below(double d)
 	if (d < -FLT_MAX)
 		return -INFINITY;
 	f = (float) d;
-	if (f <= d)
-		return f;
-	/* the next one towards -INFINITY; a 0 that is above d is a negative one */
+	/* the bits of the next one below: what is negative or -0 goes up, as its magnitude does */
 	memcpy(&bits, &f, sizeof bits);
-	bits += bits < 0 ? 1 : -1;
+	bits += (1 - 2 * (bits >= 0)) & -(f > d);
 	memcpy(&f, &bits, sizeof f);
 	return f;
 }
