@@ -518,7 +518,7 @@ edge_may_meet(const void *context, const ty_box *box)
 }
 
 /*
- * Whether a segment leaves the edge and the way alone. Most do, and which of four sides their box is on would be guessed
+ * Whether a segment leaves the edge and the way alone. Most do, and on which of four sides they are would be guessed
  * wrong: so there is one branch. Differences of coordinates are below 2^31.
  */
 static inline bool

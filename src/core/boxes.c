@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* the largest float not above d; whether d is rounded up would be guessed wrong every other time, so there is no branch */
+/* the largest float not above d; whether that is rounded up is guessed wrong every other time: so without a branch */
 static inline float
 float_below(double d)
 {
