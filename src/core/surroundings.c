@@ -18,6 +18,29 @@
 #define LONG 16			/* square of the length, in units, above which a segment is cut off ... */
 #define BESIDE_MIDDLE 2 /* ... so far from where it is nearest to the middle: no corner is as far */
 
+/*
+ * Segments are looked at four at a time, so that no few are left over: behind the last stand up to three that are far
+ * away and have no length.
+ */
+#define AT_A_TIME 4
+#define FAR 1e15f
+
+static inline size_t
+with_far_ones(const ty_segment_set *set)
+{
+	return (set->count + AT_A_TIME - 1) & ~(size_t) (AT_A_TIME - 1);
+}
+
+static void
+add_far_ones(ty_segment_set *set)
+{
+	for (size_t k = set->count; k < with_far_ones(set); k++)
+	{
+		set->x[k] = set->y[k] = FAR;
+		set->dx[k] = set->dy[k] = set->inverse[k] = 0;
+	}
+}
+
 void
 ty_surroundings_begin(const ty_barrier_lines *lines, double usual, ty_surroundings *s)
 {
@@ -151,8 +174,9 @@ add_found(square_search *search)
 		for (size_t byte = 0; byte < (size_t) run->points * run->stride; byte += CACHE_LINE)
 			__builtin_prefetch(run->xy + byte);
 	}
-	if (set->capacity - set->count < AT_ONCE * TY_RUN_POINTS)
-		search->status = make_room(search->s->lines->env, 2 * (set->capacity + AT_ONCE * TY_RUN_POINTS), set);
+	if (set->capacity - set->count < AT_ONCE * TY_RUN_POINTS + AT_A_TIME)
+		search->status =
+			make_room(search->s->lines->env, 2 * (set->capacity + AT_ONCE * TY_RUN_POINTS + AT_A_TIME), set);
 	for (int k = 0; k < search->found_count && search->status == TY_OK; k++)
 		add_run(search, search->found[k]);
 	search->found_count = 0;
@@ -176,7 +200,7 @@ invert_lengths(ty_segment_set *set)
 {
 	const float *restrict dx = set->dx, *restrict dy = set->dy;
 	float *restrict inverse = set->inverse;
-	size_t count = set->count;
+	size_t count = with_far_ones(set);
 
 	for (size_t k = 0; k < count; k++)
 		inverse[k] = 1 / (dx[k] * dx[k] + dy[k] * dy[k] + FLT_MIN);
@@ -198,6 +222,7 @@ fill_square(ty_surroundings *s, ty_point middle, double half_side)
 						   middle.y + half_side - from.y);
 	ty_boxes_search(&s->lines->boxes, may_meet_square, find_run, &search);
 	add_found(&search);
+	add_far_ones(&s->square);
 	invert_lengths(&s->square);
 	return search.status;
 }
@@ -221,7 +246,7 @@ measure_all(const ty_segment_set *set, float x, float y)
 	const float *restrict at_x = set->x, *restrict at_y = set->y, *restrict dx = set->dx, *restrict dy = set->dy;
 	const float *restrict inverse = set->inverse;
 	float *restrict squared = set->squared;
-	size_t count = set->count;
+	size_t count = with_far_ones(set);
 
 	for (size_t k = 0; k < count; k++)
 	{
@@ -272,6 +297,7 @@ pick(ty_surroundings *s, float x, float y, float limit)
 		to->inverse[m] = from->inverse[k];
 		to->number[m] = from->number[k];
 	}
+	add_far_ones(to);
 }
 
 ty_status
@@ -284,8 +310,8 @@ ty_survey(ty_surroundings *s, ty_point home, double limit)
 	s->home = home;
 	if (!usual || !is_in_square(s, home, limit))
 		status = fill_square(s, home, usual ? WIDTH * limit : limit);
-	if (status == TY_OK && s->near.capacity <= s->square.count)
-		status = make_room(s->lines->env, s->square.capacity + 1, &s->near);
+	if (status == TY_OK && s->near.capacity < s->square.count + AT_A_TIME)
+		status = make_room(s->lines->env, s->square.capacity + AT_A_TIME, &s->near);
 	if (status == TY_OK)
 		pick(s, (float) ((home.x - s->middle.x) / s->unit), (float) ((home.y - s->middle.y) / s->unit),
 			 (float) (limit / s->unit + ROUNDING));
@@ -298,13 +324,22 @@ ty_survey(ty_surroundings *s, ty_point home, double limit)
 static size_t
 nearest_of(const ty_segment_set *set)
 {
-	const float *restrict squared = set->squared;
-	float least = INFINITY;
-	size_t count = set->count, nearest = 0;
+	const float *squared = set->squared;
+	float least[AT_A_TIME] = {INFINITY, INFINITY, INFINITY, INFINITY};
+	size_t count = with_far_ones(set), nearest = 0;
 
-	for (size_t k = 0; k < count; k++)
-		least = squared[k] < least ? squared[k] : least;
-	while (nearest < count && squared[nearest] != least)
+	if (set->count == 0)
+		return 0;
+	for (size_t k = 0; k < count; k += AT_A_TIME)
+		for (int m = 0; m < AT_A_TIME; m++)
+		{
+			float one = squared[k + m], other = least[m];
+
+			least[m] = one < other ? one : other;
+		}
+	for (int m = 1; m < AT_A_TIME; m++)
+		least[0] = least[m] < least[0] ? least[m] : least[0];
+	while (squared[nearest] != least[0])
 		nearest++;
 	return nearest;
 }
@@ -362,7 +397,7 @@ ty_is_behind(const ty_surroundings *s, ty_point place)
 {
 	const float *at_x = s->near.x, *at_y = s->near.y, *dx = s->near.dx, *dy = s->near.dy;
 	float x = (float) (place.x / s->unit), y = (float) (place.y / s->unit);
-	size_t count = s->near.count;
+	size_t count = with_far_ones(&s->near);
 	int crossed = 0;
 
 	for (size_t k = 0; k < count; k++)
