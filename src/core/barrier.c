@@ -304,24 +304,12 @@ clip(line_end p, line_end q, ty_barrier_segment *s)
 	return true;
 }
 
-static int32_t
-least(int32_t a, int32_t b)
-{
-	return a < b ? a : b;
-}
-
-static int32_t
-most(int32_t a, int32_t b)
-{
-	return a > b ? a : b;
-}
-
 /* Whether a segment may lie between two places in the box. */
 static bool
 meets_box(const fitting *f, ty_barrier_segment s)
 {
-	return most(s.a.x, s.b.x) >= f->low.x && least(s.a.x, s.b.x) <= f->high.x && most(s.a.y, s.b.y) >= f->low.y &&
-		   least(s.a.y, s.b.y) <= f->high.y;
+	return ty_most(s.a.x, s.b.x) >= f->low.x && ty_least(s.a.x, s.b.x) <= f->high.x &&
+		   ty_most(s.a.y, s.b.y) >= f->low.y && ty_least(s.a.y, s.b.y) <= f->high.y;
 }
 
 static ty_status
@@ -381,8 +369,8 @@ find_box(fitting *f, const ty_position *position, size_t n)
 	f->low = f->high = position[0];
 	for (size_t i = 1; i < n; i++)
 	{
-		f->low = (ty_position){least(f->low.x, position[i].x), least(f->low.y, position[i].y)};
-		f->high = (ty_position){most(f->high.x, position[i].x), most(f->high.y, position[i].y)};
+		f->low = (ty_position){ty_least(f->low.x, position[i].x), ty_least(f->low.y, position[i].y)};
+		f->high = (ty_position){ty_most(f->high.x, position[i].x), ty_most(f->high.y, position[i].y)};
 	}
 	low = (ty_point){ty_grid_x(grid, f->low.x), ty_grid_y(grid, f->low.y)};
 	high = (ty_point){ty_grid_x(grid, f->high.x), ty_grid_y(grid, f->high.y)};
@@ -408,8 +396,8 @@ raise_boxes(ty_barriers *barriers)
 		{
 			const ty_barrier_segment *s = &barriers->segments[j];
 
-			low = (ty_position){least(low.x, least(s->a.x, s->b.x)), least(low.y, least(s->a.y, s->b.y))};
-			high = (ty_position){most(high.x, most(s->a.x, s->b.x)), most(high.y, most(s->a.y, s->b.y))};
+			low = (ty_position){ty_least(low.x, ty_least(s->a.x, s->b.x)), ty_least(low.y, ty_least(s->a.y, s->b.y))};
+			high = (ty_position){ty_most(high.x, ty_most(s->a.x, s->b.x)), ty_most(high.y, ty_most(s->a.y, s->b.y))};
 		}
 		barriers->boxes.box[i] = ty_box_of(low.x, low.y, high.x, high.y);
 		if (ty_interrupted_at(barriers->env, i))
@@ -524,8 +512,8 @@ edge_may_meet(const void *context, const ty_box *box)
 static inline bool
 passes(const edge *e, const ty_barrier_segment *s)
 {
-	int32_t beyond = (most(s->a.x, s->b.x) - e->low.x) | (e->high.x - least(s->a.x, s->b.x)) |
-					 (most(s->a.y, s->b.y) - e->low.y) | (e->high.y - least(s->a.y, s->b.y));
+	int32_t beyond = (ty_most(s->a.x, s->b.x) - e->low.x) | (e->high.x - ty_least(s->a.x, s->b.x)) |
+					 (ty_most(s->a.y, s->b.y) - e->low.y) | (e->high.y - ty_least(s->a.y, s->b.y));
 
 	return beyond < 0 || !bars(e, s);
 }
@@ -576,8 +564,8 @@ ty_barriers_bar(const ty_barriers *barriers, ty_position a, ty_position b, ty_po
 	/* a place off the edge by a cell in either coordinate turns by no more than half of this */
 	e.near = 2 * (magnitude((int64_t) b.x - a.x) + magnitude((int64_t) b.y - a.y));
 	/* a move by an infinitesimal reaches no whole number: nothing beyond the box of the places is met */
-	e.low = (ty_position){least(least(a.x, b.x), merged.x), least(least(a.y, b.y), merged.y)};
-	e.high = (ty_position){most(most(a.x, b.x), merged.x), most(most(a.y, b.y), merged.y)};
+	e.low = (ty_position){ty_least(ty_least(a.x, b.x), merged.x), ty_least(ty_least(a.y, b.y), merged.y)};
+	e.high = (ty_position){ty_most(ty_most(a.x, b.x), merged.x), ty_most(ty_most(a.y, b.y), merged.y)};
 	span = ty_barrier_span_of(&barriers->squares, e.low, e.high);
 	if (ty_barrier_squares_serve(&barriers->squares, span))
 		return !edge_passes_squares(&barriers->squares, span, &e);
@@ -625,8 +613,8 @@ ty_barriers_fetch(const ty_barriers *barriers, const ty_edge_ends *edge, size_t 
 		for (size_t i = 0; i < count; i++)
 		{
 			ty_position a = edge[i].a, b = edge[i].b;
-			ty_barrier_span span = ty_barrier_span_of(squares, (ty_position){least(a.x, b.x), least(a.y, b.y)},
-													  (ty_position){most(a.x, b.x), most(a.y, b.y)});
+			ty_barrier_span span = ty_barrier_span_of(squares, (ty_position){ty_least(a.x, b.x), ty_least(a.y, b.y)},
+													  (ty_position){ty_most(a.x, b.x), ty_most(a.y, b.y)});
 
 			if (!ty_barrier_squares_serve(squares, span))
 				continue;

@@ -9,25 +9,13 @@
 #define MOST_BITS 12
 #define MOST_TAKEN 8 /* squares that a segment lies in, on average */
 
-static int32_t
-least(int32_t a, int32_t b)
-{
-	return a < b ? a : b;
-}
-
-static int32_t
-most(int32_t a, int32_t b)
-{
-	return a > b ? a : b;
-}
-
 static ty_barrier_span
 span_of(const ty_barrier_squares *s, const ty_barrier_segment *segment)
 {
 	ty_position a = segment->a, b = segment->b;
 
-	return ty_barrier_span_of(s, (ty_position){least(a.x, b.x), least(a.y, b.y)},
-							  (ty_position){most(a.x, b.x), most(a.y, b.y)});
+	return ty_barrier_span_of(s, (ty_position){ty_least(a.x, b.x), ty_least(a.y, b.y)},
+							  (ty_position){ty_most(a.x, b.x), ty_most(a.y, b.y)});
 }
 
 /* A square is twice as wide as a segment is on average, or up to four times that. */
@@ -41,7 +29,7 @@ shift_for(const ty_barrier_segment *segment, size_t count)
 	{
 		ty_position a = segment[i].a, b = segment[i].b;
 
-		sum += (uint64_t) most(a.x, b.x) - least(a.x, b.x) + (most(a.y, b.y) - least(a.y, b.y));
+		sum += (uint64_t) ty_most(a.x, b.x) - ty_least(a.x, b.x) + (ty_most(a.y, b.y) - ty_least(a.y, b.y));
 	}
 	while (shift < 28 && ((uint64_t) count << shift) < sum)
 		shift++;
@@ -79,7 +67,7 @@ part_in_row(const ty_barrier_squares *s, const ty_barrier_segment *segment, ty_b
 {
 	ty_position a = segment->a, b = segment->b;
 	double slope = ((double) b.x - a.x) / ((double) b.y - a.y);
-	double from = fmax(begin_of(s, row), least(a.y, b.y)), to = fmin(begin_of(s, row + 1), most(a.y, b.y));
+	double from = fmax(begin_of(s, row), ty_least(a.y, b.y)), to = fmin(begin_of(s, row + 1), ty_most(a.y, b.y));
 	double x_from = a.x + (from - a.y) * slope, x_to = a.x + (to - a.y) * slope;
 	uint32_t low = column_at(s, fmin(x_from, x_to) - 1), high = column_at(s, fmax(x_from, x_to) + 1);
 

@@ -11,6 +11,18 @@
 #include "environment.h"
 #include "grid.h"
 
+static inline int32_t
+ty_least(int32_t a, int32_t b)
+{
+	return a < b ? a : b;
+}
+
+static inline int32_t
+ty_most(int32_t a, int32_t b)
+{
+	return a > b ? a : b;
+}
+
 typedef struct ty_barrier_segment
 {
 	ty_position a, b; /* they differ; a little outside of the grid where the line goes on */

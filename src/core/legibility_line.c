@@ -9,15 +9,6 @@
 #define ASKED \
 	12 /* so many of the nearest sites are asked whether a line lies between: who is farther is no neighbour */
 
-static void
-set_lines(ty_ladder *l, double limit)
-{
-	l->line_count = l->segments.count;
-	l->line_list = l->segments.number;
-	l->line_distance = l->segments.distance;
-	l->line_limit = limit;
-}
-
 /*
  * Lists which segments are in reach, with all that a site may come to: so nothing is searched for in the rounds. Most
  * of the time of barriers with gaps was.
@@ -31,7 +22,7 @@ find_lines(ty_ladder *l, uint32_t i, double reach)
 
 	if (status != TY_OK)
 		return status;
-	set_lines(l, limit);
+	l->line_limit = limit;
 	list = ty_lists_keep_with(&l->lines_of, i, l->segments.number, l->segments.distance, l->segments.count);
 	l->line_count = l->segments.count;
 	l->line_list = list == NULL ? l->segments.number : list + 1;

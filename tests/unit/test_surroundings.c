@@ -169,6 +169,15 @@ as_the_tree_of_all_lines_says(void)
 		walk_about(&frames[i]);
 }
 
+/* Lines of a single road, from one end to the other. */
+static void
+one_road(const ty_point *road, ty_barrier_lines *lines)
+{
+	ty_barrier_lines_begin(lines, &ty_plain_environment);
+	CHECK(ty_barrier_lines_add(lines, road, sizeof *road, 2) == TY_OK, "add");
+	CHECK(ty_barrier_lines_end(lines) == TY_OK, "end");
+}
+
 /* a road from horizon to horizon is as near as it is */
 static void
 a_long_segment_is_not_bent(void)
@@ -177,9 +186,7 @@ a_long_segment_is_not_bent(void)
 	ty_barrier_lines lines;
 	ty_surroundings s;
 
-	ty_barrier_lines_begin(&lines, &ty_plain_environment);
-	NEED(ty_barrier_lines_add(&lines, road, sizeof *road, 2) == TY_OK && ty_barrier_lines_end(&lines) == TY_OK,
-		 "lines");
+	one_road(road, &lines);
 	ty_surroundings_begin(&lines, 20, &s);
 	NEED(ty_survey(&s, place, 20) == TY_OK, "no memory");
 	CHECK(fabs(ty_nearest_segment(&s, (ty_point){0, 0}, &away) - 30 / sqrt(10)) < 1e-3, "%g",
@@ -196,9 +203,7 @@ where_there_is_nothing(void)
 	ty_barrier_lines lines;
 	ty_surroundings s;
 
-	ty_barrier_lines_begin(&lines, &ty_plain_environment);
-	NEED(ty_barrier_lines_add(&lines, road, sizeof *road, 2) == TY_OK && ty_barrier_lines_end(&lines) == TY_OK,
-		 "lines");
+	one_road(road, &lines);
 	ty_surroundings_begin(&lines, 20, &s);
 	NEED(ty_survey(&s, (ty_point){1000, 1000}, 20) == TY_OK, "no memory");
 	CHECK(!(ty_nearest_segment(&s, (ty_point){0, 0}, &away) < INFINITY) && away.x == 7, "%g", away.x);
