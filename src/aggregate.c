@@ -500,7 +500,7 @@ look_for_barriers(void *context, int argument, Datum value, Oid type, bool per_q
 {
 	barrier_search *search = context;
 	bool options = type_is_rowtype(type);
-	Datum constant = per_query ? value : (Datum) 0;
+	Datum lasting = per_query ? value : (Datum) 0;
 
 	if (argument == 0 || (!options && get_typlen(type) != -1))
 		return false;
@@ -509,7 +509,7 @@ look_for_barriers(void *context, int argument, Datum value, Oid type, bool per_q
 	if (value == (Datum) 0 || !ty_same_barriers(ty_check_barriers(value), search->hash))
 		return false;
 	search->found = ty_keep_barriers_datum(search->cache, per_query ? search->long_context : search->context,
-										   search->hash, value, constant);
+										   search->hash, value, per_query, lasting);
 	return true;
 }
 

@@ -217,14 +217,14 @@ lie_inside(const unsigned char *payload, size_t size, Datum value)
 
 ty_barrier_set *
 ty_keep_barriers_datum(ty_barrier_cache *cache, MemoryContext context, ty_barrier_hash hash, Datum geometry,
-					   Datum constant)
+					   bool constant, Datum lasting)
 {
 	struct varlena *value = PG_DETOAST_DATUM_PACKED(geometry);
 	const unsigned char *payload = (const unsigned char *) VARDATA_ANY(value);
 	size_t size = VARSIZE_ANY_EXHDR(value);
-	ty_barrier_set *set = new_set(cache, context, hash, payload, size, !lie_inside(payload, size, constant));
+	ty_barrier_set *set = new_set(cache, context, hash, payload, size, !lie_inside(payload, size, lasting));
 
-	set->constant = constant != (Datum) 0;
+	set->constant = constant;
 	if ((Pointer) value != DatumGetPointer(geometry))
 		pfree(value);
 	return set;

@@ -64,11 +64,11 @@ extern ty_barrier_set *ty_keep_barriers(ty_barrier_cache *cache, MemoryContext c
 										const void *payload, size_t size);
 
 /*
- * The same for a geometry. constant: the argument that it is or lies in, where that is constant for the query (a
- * constant of the plan or a parameter, whose value stays where it is); else 0. Of such a one there is no copy.
+ * The same for a geometry. constant: for the query. lasting: the argument that it is or lies in, where that stays where
+ * it is as long as the context (a constant of the plan or a parameter); else 0. Of such a one there is no copy.
  */
 extern ty_barrier_set *ty_keep_barriers_datum(ty_barrier_cache *cache, MemoryContext context, ty_barrier_hash hash,
-											  Datum geometry, Datum constant);
+											  Datum geometry, bool constant, Datum lasting);
 
 /* The set's lines; they are read and indexed when a group is first typified with them. NULL for no set. */
 extern const ty_barrier_lines *ty_lines_of_barriers(ty_barrier_set *set);

@@ -63,6 +63,15 @@ find_constancy(ty_call *call, FunctionCallInfo fcinfo, int first)
 	}
 }
 
+/* With ORDER BY or DISTINCT arguments come from the tuples that were sorted, also those that are constant. */
+static bool
+is_sorted(FunctionCallInfo fcinfo)
+{
+	Aggref *aggregate = AggGetAggref(fcinfo);
+
+	return aggregate != NULL && (aggregate->aggorder != NIL || aggregate->aggdistinct != NIL);
+}
+
 ty_call *
 ty_call_of(FunctionCallInfo fcinfo, int first, int given, int geometry, bool with_scale)
 {
@@ -76,6 +85,7 @@ ty_call_of(FunctionCallInfo fcinfo, int first, int given, int geometry, bool wit
 	call->with_scale = with_scale;
 	call->given = Min(PG_NARGS() - first, given);
 	find_constancy(call, fcinfo, first);
+	call->sorted = is_sorted(fcinfo);
 	ty_srid_cache_begin(&call->srids, function->fn_oid, geometry, function->fn_mcxt);
 	ty_pools_begin(&call->pools, function->fn_mcxt);
 	function->fn_extra = call;
@@ -195,12 +205,13 @@ find_barriers(ty_call *call, const NullableDatum *arguments)
 	ty_barrier_hash hash = call->parameters.barriers;
 	bool argument = is_given(call, arguments, BARRIERS) && ty_same_barriers(call->barriers_argument, hash);
 	int from = argument ? BARRIERS : OPTIONS;
-	Datum value = arguments[from].value, constant = call->constant[from] ? value : (Datum) 0;
+	bool constant = call->constant[from];
+	Datum value = arguments[from].value, lasting = constant && !call->sorted ? value : (Datum) 0;
 	ty_barrier_set *set = ty_find_barriers(&call->barriers, call->group_context, hash);
 
 	if (set == NULL)
-		set = ty_keep_barriers_datum(&call->barriers, call->constant[from] ? call->context : call->group_context, hash,
-									 argument ? value : ty_barriers_of_options(value), constant);
+		set = ty_keep_barriers_datum(&call->barriers, constant ? call->context : call->group_context, hash,
+									 argument ? value : ty_barriers_of_options(value), constant, lasting);
 	call->barriers.current = set;
 }
 

@@ -24,6 +24,7 @@ typedef struct ty_call
 	MemoryContext group_context;	  /* of the group that asks; set by whoever calls ty_call_parameters */
 	ty_constancy constancy;			  /* the least of the arguments' */
 	bool constant[TY_CALL_ARGUMENTS]; /* for the query */
+	bool sorted;					  /* a constant argument does not stay where it is from row to row */
 	bool options_per_row;			  /* the plan makes them anew for every row */
 	int repeated;					  /* rows on end for which that gave the same */
 	int given;						  /* 1 .. TY_CALL_ARGUMENTS */

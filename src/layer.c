@@ -147,7 +147,7 @@ take_barriers(layer *l, Datum geometry, int32 srid)
 
 	if (ty_no_barriers(hash) || l->set != NULL)
 		return;
-	l->set = ty_keep_barriers_datum(&l->barriers, l->context, hash, geometry, (Datum) 0);
+	l->set = ty_keep_barriers_datum(&l->barriers, l->context, hash, geometry, false, (Datum) 0);
 	ty_check_barrier_srid(l->set, srid);
 }
 

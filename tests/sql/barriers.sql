@@ -174,6 +174,14 @@ SELECT ST_NumGeometries(typify(geom, 50000, 0, typify_options(barriers => (SELEC
 SELECT ST_NumGeometries(typify(geom, 50000, 0, typify_options(barriers => (SELECT ST_Collect(geom) FROM typify_test_street)))) AS few_buildings FROM typify_test_house;
 DROP TABLE typify_test_street;
 
+-- large ones are not copied where they stay in memory; those of a call that sorts its rows do not
+CREATE TABLE typify_test_street AS SELECT ST_SetSRID(ST_MakeLine(ST_MakePoint(i, 0), ST_MakePoint(i + 7, 2000)), 2056) AS geom FROM generate_series(0, 10000) AS i;
+CREATE TABLE typify_test_village AS SELECT i AS id, ST_SetSRID(ST_MakeEnvelope(x, y, x + 8, y + 7), 2056) AS geom FROM (SELECT i, i * 7919 % 10007 % 200 AS x, i * 104729 % 10009 % 200 AS y FROM generate_series(1, 200) AS i) AS q;
+SELECT ST_NumGeometries(plain) AS plain, sorted::bytea = plain::bytea AS sorted_as_plain
+FROM (SELECT typify(geom, 30000, 0.5, (SELECT typify_options(barriers => ST_Collect(geom)) FROM typify_test_street)) AS plain FROM typify_test_village) AS p,
+	(SELECT typify(geom, 30000, 0.5, (SELECT typify_options(barriers => ST_Collect(geom)) FROM typify_test_street) ORDER BY id) AS sorted FROM typify_test_village) AS s;
+DROP TABLE typify_test_street, typify_test_village;
+
 DROP MATERIALIZED VIEW typify_test_view;
 DROP VIEW typify_test_grouped;
 DROP TABLE typify_test_house, typify_test_lines, typify_test_barrier, typify_test_town, typify_test_net, typify_test_nets, typify_test_query, typify_test_cell, typify_test_result, typify_test_road, typify_test_layer, typify_test_built;
