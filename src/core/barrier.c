@@ -396,8 +396,8 @@ find_box(fitting *f, const ty_position *position, size_t n)
 }
 
 /*
- * The tree over the segments, which are in the order of their lines: near one another along the Hilbert curve. And their
- * squares, for as many places.
+ * The tree over the segments, which are in the order of their lines: near one another along the Hilbert curve. Where
+ * there are many places, their squares, too.
  */
 static ty_status
 raise_boxes(ty_barriers *barriers, size_t places)
