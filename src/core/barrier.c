@@ -8,6 +8,8 @@
 
 #define FIRST_RUNS 64
 #define FIRST_SEGMENTS 32
+/* Of so many more segments than places the tree is as quick: squares would take longer than all that is asked. */
+#define MOST_A_PLACE 64
 
 /* ---- lines ---- */
 
@@ -381,9 +383,12 @@ find_box(fitting *f, const ty_position *position, size_t n)
 	f->box = relative_box(f->lines, low, high);
 }
 
-/* The tree over the segments, which are in the order of their lines: near one another along the Hilbert curve. */
+/*
+ * The tree over the segments, which are in the order of their lines: near one another along the Hilbert curve. Where
+ * there are many places, their squares, too.
+ */
 static ty_status
-raise_boxes(ty_barriers *barriers)
+raise_boxes(ty_barriers *barriers, size_t places)
 {
 	size_t count = (barriers->count + TY_BOX_FAN - 1) / TY_BOX_FAN;
 	ty_status status = ty_boxes_begin(barriers->env, count, &barriers->boxes);
@@ -405,7 +410,7 @@ raise_boxes(ty_barriers *barriers)
 	}
 	if (status == TY_OK)
 		ty_boxes_raise(&barriers->boxes);
-	if (status == TY_OK)
+	if (status == TY_OK && barriers->count / MOST_A_PLACE <= places)
 		status = ty_barrier_squares_build(barriers->env, barriers->segments, barriers->count, &barriers->squares);
 	return status;
 }
@@ -419,7 +424,7 @@ ty_barriers_fit(const ty_environment *env, const ty_barrier_lines *lines, const 
 	*barriers = (ty_barriers){.env = env};
 	find_box(&f, position, n);
 	ty_boxes_search(&lines->boxes, may_fit, fit_run, &f);
-	return f.status == TY_OK ? raise_boxes(barriers) : f.status;
+	return f.status == TY_OK ? raise_boxes(barriers, n) : f.status;
 }
 
 void

@@ -2,6 +2,7 @@
 #include "barrier.h"
 
 #include <math.h>
+#include <string.h>
 
 static double
 length(ty_point a, ty_point b)
@@ -340,6 +341,7 @@ list_of_run(void *context, size_t thing)
 }
 
 #define BANDS 32
+#define MANY 2048 /* segments; of so many a band may hold too many to be sorted by insertion */
 
 /* Which band of distances, of the same width each. */
 static inline uint32_t
@@ -393,6 +395,55 @@ sort_within_bands(ty_segments *near)
 	}
 }
 
+/* segments with their distances, as they are listed */
+typedef struct listed
+{
+	uint32_t *number;
+	float *distance;
+} listed;
+
+/* Merges the sorted runs of a width by twos: of two that are as far the first one stays before the other. */
+static void
+merge_runs(listed from, listed to, size_t count, size_t width)
+{
+	for (size_t begin = 0; begin < count; begin += 2 * width)
+	{
+		size_t middle = begin + width < count ? begin + width : count;
+		size_t end = middle + width < count ? middle + width : count, a = begin, b = middle;
+
+		for (size_t k = begin; k < end; k++)
+		{
+			bool second = a == middle || (b < end && from.distance[b] < from.distance[a]);
+			size_t next = second ? b++ : a++;
+
+			to.number[k] = from.number[next];
+			to.distance[k] = from.distance[next];
+		}
+	}
+}
+
+/* As by bands, to the same order, however many are about as far as one another. */
+static void
+sort_many(ty_segments *near)
+{
+	listed from = {near->number, near->distance};
+	listed to = {near->number + near->capacity, near->distance + near->capacity};
+
+	for (size_t width = 1; width < near->count; width *= 2)
+	{
+		listed merged = to;
+
+		merge_runs(from, to, near->count, width);
+		to = from;
+		from = merged;
+	}
+	if (from.number != near->number)
+	{
+		memcpy(near->number, from.number, near->count * sizeof *from.number);
+		memcpy(near->distance, from.distance, near->count * sizeof *from.distance);
+	}
+}
+
 ty_status
 ty_barrier_lines_near(const ty_barrier_lines *lines, ty_point p, double limit, ty_segments *near)
 {
@@ -405,6 +456,11 @@ ty_barrier_lines_near(const ty_barrier_lines *lines, ty_point p, double limit, t
 	search.box =
 		ty_box_of(p.x - limit - origin.x, p.y - limit - origin.y, p.x + limit - origin.x, p.y + limit - origin.y);
 	ty_boxes_search(&lines->boxes, may_be_near, list_of_run, &search);
+	if (search.status == TY_OK && near->count > MANY)
+	{
+		sort_many(near);
+		return ty_interrupted(lines->env) ? TY_INTERRUPTED : TY_OK;
+	}
 	if (search.status == TY_OK && near->count > 1)
 	{
 		sort_by_band(near, (float) limit);

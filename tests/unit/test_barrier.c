@@ -242,6 +242,8 @@ on_side(double v, double side)
 	return (int32_t) fmin(fmax(v, 0), side);
 }
 
+#define PLACES 500 /* enough of them for squares */
+
 static void
 as_if_every_segment_were_tried(void)
 {
@@ -253,14 +255,14 @@ as_if_every_segment_were_tried(void)
 	for (size_t k = 0; k < 20; k++)
 	{
 		double side = sides[k % 4];
-		ty_position corners[2] = {{0, 0}, {(int32_t) side, (int32_t) side}};
+		ty_position places[PLACES] = {{0, 0}, {(int32_t) side, (int32_t) side}};
 		ty_grid grid = grid_of(1, 0, 0);
 		ty_barrier_lines lines;
 		ty_barriers barriers;
 
 		make_lines(&random, sizes[k / 4], side);
 		gather(&ty_plain_environment, &lines);
-		CHECK(ty_barriers_fit(&ty_plain_environment, &lines, &grid, corners, 2, &barriers) == TY_OK, "fit");
+		CHECK(ty_barriers_fit(&ty_plain_environment, &lines, &grid, places, PLACES, &barriers) == TY_OK, "fit");
 		for (int t = 0; t < 3000; t++)
 		{
 			double step = side * pow(2, -(double) random_between(&random, 0, 14));
@@ -287,6 +289,41 @@ as_if_every_segment_were_tried(void)
 	CHECK(crossed > asked / 10 && crossed < asked - asked / 10, "%zu of %zu crossed", crossed, asked);
 	CHECK(by_squares > asked / 10 && by_squares < asked / 2, "%zu of %zu were looked for in squares", by_squares,
 		  asked);
+}
+
+/* Many segments that are about as far from a place as one another are listed in order, too. */
+static void
+many_on_one_spot(void)
+{
+	enum
+	{
+		LINES = 30000
+	};
+	random_state random = random_seed(7);
+	ty_point *ends = malloc(2 * LINES * sizeof *ends);
+	ty_barrier_lines lines;
+	ty_segments near = {0};
+	size_t unsorted = 0;
+
+	ty_barrier_lines_begin(&lines, &ty_plain_environment);
+	for (size_t l = 0; l < LINES; l++)
+	{
+		ends[2 * l] = (ty_point){1000 + random_unit(&random), random_unit(&random)};
+		ends[2 * l + 1] = (ty_point){1001 + random_unit(&random), random_unit(&random)};
+		CHECK(ty_barrier_lines_add(&lines, ends + 2 * l, sizeof *ends, 2) == TY_OK, "line %zu", l);
+	}
+	CHECK(ty_barrier_lines_end(&lines) == TY_OK, "end");
+	CHECK(ty_barrier_lines_near(&lines, (ty_point){0, 0}, 2000, &near) == TY_OK, "near");
+	CHECK(near.count == LINES, "%zu of %d are listed", near.count, LINES);
+	for (size_t k = 1; k < near.count; k++)
+		unsorted += near.distance[k] < near.distance[k - 1];
+	CHECK(unsorted == 0, "%zu are nearer than the one before", unsorted);
+	CHECK(near.distance[0] >= 999 && near.distance[LINES - 1] <= 1002, "from %g to %g", near.distance[0],
+		  near.distance[LINES - 1]);
+	ty_release(lines.env, near.number);
+	ty_release(lines.env, near.distance);
+	ty_barrier_lines_free(&lines);
+	free(ends);
 }
 
 /* Lines that go far beyond the grid: what crosses clearly still does, and nothing else. */
@@ -796,6 +833,7 @@ main(int argc, char **argv)
 	RUN(every_case_on_a_small_lattice);
 	RUN(nothing_leaks_through_joints);
 	RUN(as_if_every_segment_were_tried);
+	RUN(many_on_one_spot);
 	RUN(lines_beyond_the_grid);
 	RUN(the_box_of_the_group);
 	RUN(the_order_of_lines_does_not_matter);
