@@ -45,8 +45,8 @@ ty_note_way(ty_clearance *c, double dx, double dy)
 }
 
 /*
- * The segment from p to q beside the rectangle around the origin. Unless they meet, the nearest points are an end of the
- * segment or, of the rectangle, the corner that reaches farthest towards the line.
+ * The segment from p to q beside the rectangle around the origin. Unless they meet, the nearest points are an end of
+ * the segment or, of the rectangle, the corner that reaches farthest towards the line.
  */
 static inline void
 ty_look_at_segment(const ty_oblong *box, ty_point p, ty_point q, ty_clearance *c)
