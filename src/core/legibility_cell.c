@@ -4,10 +4,11 @@
  * On a map of a town with all its streets the symbols of lines leave room to every tenth site or so. What has none, as
  * small as it may become, wherever it may go, need not be pushed about in rounds: it becomes one with the nearest in
  * its cell between the lines, as often as it takes for that one to have room; where nobody else is left in the cell,
- * the members go to the nearest across. So rounds begin with a fifth of the sites; they took ten times as long with all.
+ * the members go to the nearest across. So rounds begin with a fifth of the sites; with all they took ten times as
+ * long.
  *
  * Whether there is room is found out by a walk away from the lines (surroundings.h), first of the disc in the site:
- * three fifths come no farther. Nothing that is promised hangs on it. The place that a site has come to is its seat,
+ * more than half come no farther. Nothing that is promised hangs on it. The place that a site has come to is its seat,
  * where it begins: at true size, and only where that has none at the least. Two seats that are nearly one are not worth
  * a struggle: whoever would sit there are joined as well.
  */

@@ -135,7 +135,7 @@ in_units(const square_search *search, ty_point p)
 	return (ty_point){(p.x - middle.x) * search->scale, (p.y - middle.y) * search->scale};
 }
 
-/* Every other segment lies in the square: each is written down, and is there if the next one does not take its place. */
+/* Every other segment lies in the square: each is written down, and stays if the next one does not take its place. */
 static void
 add_run(square_search *search, uint32_t number)
 {

@@ -1,6 +1,6 @@
 /*
- * surroundings.h - the segments of lines around a place, at hand for a walk from there: in single precision, all of them
- * looked at in each step.
+ * surroundings.h - the segments of lines around a place, at hand for a walk from there: in single precision, all of
+ * them looked at in each step.
  *
  * Places that are asked for one after the other are mostly near one another: the segments of a square around the first
  * one are kept, and those near the next ones are picked from them.
@@ -45,7 +45,7 @@ ty_status ty_survey(ty_surroundings *s, ty_point home, double limit);
 /* Of those picked, places counted from home: how near the nearest comes, and the unit vector away from there. */
 double ty_nearest_segment(ty_surroundings *s, ty_point place, ty_point *away);
 /*
- * By how much a rectangle with that half diagonal is nearer to the nearest than gap, and the unit vector away from there.
+ * By how much a rectangle with that half diagonal is nearer to the nearest than gap, and the unit vector away from it.
  * Where one crosses it: by what it takes to get across the line nearest to its centre.
  */
 double ty_lack_beside_segments(ty_surroundings *s, const ty_oblong *box, double radius, double gap, ty_point *away);

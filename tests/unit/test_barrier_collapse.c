@@ -1,6 +1,6 @@
 /*
- * test_barrier_collapse.c - the fear: a merge carries somebody across a barrier: along the edge, over the merged place, or
- * bit by bit.
+ * test_barrier_collapse.c - the fear: a merge carries somebody across a barrier: along the edge, over the merged place,
+ * or bit by bit.
  */
 #include "barrier_world.h"
 #include "compare.h"

@@ -1,6 +1,6 @@
 /*
- * test_surroundings.c - the fear: a segment is passed over because the square that serves was made for another place, or
- * because single precision bends what is long, far from the origin, or in tiny units; so a site sits on a road.
+ * test_surroundings.c - the fear: a segment is passed over because the square that serves was made for another place,
+ * or because single precision bends what is long, far from the origin, or in tiny units; so a site sits on a road.
  */
 #include "check.h"
 #include "random.h"
@@ -30,7 +30,7 @@ placed(const frame *f, double x, double y)
 	return (ty_point){f->origin.x + f->unit * x, f->origin.y + f->unit * y};
 }
 
-/* Lines that wander; every seventh one has a stretch a thousand times as long, every fifth one stands still for a while. */
+/* Lines that wander; every seventh has a stretch a thousand times as long, every fifth one stands still for a while. */
 static void
 make_lines(random_state *r, const frame *f, ty_barrier_lines *lines)
 {
