@@ -162,7 +162,7 @@ add_run(square_search *search, uint32_t number)
 	set->count = count;
 }
 
-/* Points lie anywhere in memory: those of all runs that have been found are called for before the first is needed. */
+/* The points of all runs that have been found are called for before the first is needed. */
 static void
 add_found(square_search *search)
 {
@@ -221,8 +221,8 @@ fill_square(ty_surroundings *s, ty_point middle, double half_side)
 	s->square.count = 0;
 	search.box = ty_box_of(middle.x - half_side - from.x, middle.y - half_side - from.y, middle.x + half_side - from.x,
 						   middle.y + half_side - from.y);
-	ty_boxes_search(&s->lines->boxes, may_meet_square, find_run, &search);
-	add_found(&search);
+	if (ty_boxes_search(&s->lines->boxes, may_meet_square, find_run, &search))
+		add_found(&search);
 	add_far_ones(&s->square);
 	invert_lengths(&s->square);
 	if (search.status == TY_OK && s->square.count > MANY && ty_interrupted(s->lines->env))
@@ -272,24 +272,30 @@ way_to_segment(const ty_segment_set *set, size_t k, ty_point place)
 	return (ty_point){from_x + share * dx, from_y + share * dy};
 }
 
+/* Lists which of so many are nearer than limit; how many there are. picked has room for one more. */
+static size_t
+list_within(const float *restrict squared, size_t all, float limit, uint32_t *restrict picked)
+{
+	size_t count = 0;
+
+	for (size_t k = 0; k < all; k++)
+	{
+		picked[count] = (uint32_t) k;
+		count += squared[k] < limit * limit;
+	}
+	return count;
+}
+
 /* Picks from the square what comes as near to home, which is at (x, y) there. */
 static void
 pick(ty_surroundings *s, float x, float y, float limit)
 {
 	const ty_segment_set *from = &s->square;
 	ty_segment_set *to = &s->near;
-	const float *restrict squared = from->squared;
-	uint32_t *restrict picked = to->number;
-	size_t all = from->count, count = 0;
 
 	measure_all(from, x, y);
-	for (size_t k = 0; k < all; k++)
-	{
-		picked[count] = (uint32_t) k;
-		count += squared[k] < limit * limit;
-	}
-	to->count = count;
-	for (size_t m = 0; m < count; m++)
+	to->count = list_within(from->squared, from->count, limit, to->number);
+	for (size_t m = 0; m < to->count; m++)
 	{
 		size_t k = to->number[m];
 

@@ -23,10 +23,16 @@ add(counting *counter, size_t size)
 		counter->peak = counter->used;
 }
 
+static bool
+fails(counting *counter)
+{
+	return ++counter->allocations == counter->failing;
+}
+
 static void *
 count_allocate(void *context, size_t size)
 {
-	block *b = malloc(sizeof *b + size);
+	block *b = fails(context) ? NULL : malloc(sizeof *b + size);
 
 	if (b == NULL)
 		return NULL;
@@ -40,7 +46,7 @@ count_reallocate(void *context, void *memory, size_t size)
 {
 	counting *counter = context;
 	size_t before = block_of(memory)->size;
-	block *b = realloc(block_of(memory), sizeof *b + size);
+	block *b = fails(counter) ? NULL : realloc(block_of(memory), sizeof *b + size);
 
 	if (b == NULL)
 		return NULL;

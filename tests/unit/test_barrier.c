@@ -463,7 +463,7 @@ memory_is_given_back(void)
 	random_state random = random_seed(8);
 	counting counter;
 	ty_environment env = counting_environment(&counter);
-	ty_position corners[2] = {{0, 0}, {1000, 1000}};
+	ty_position places[PLACES] = {{0, 0}, {1000, 1000}};
 	ty_grid grid = grid_of(1, 0, 0);
 	ty_barrier_lines lines;
 	ty_barriers barriers;
@@ -473,66 +473,44 @@ memory_is_given_back(void)
 	gather(&env, &lines);
 	of_lines = counter.used;
 	CHECK(of_lines < 32 * lines.segments, "%zu bytes for %zu segments", of_lines, lines.segments);
-	CHECK(ty_barriers_fit(&env, &lines, &grid, corners, 2, &barriers) == TY_OK, "fit");
+	CHECK(ty_barriers_fit(&env, &lines, &grid, places, PLACES, &barriers) == TY_OK, "fit");
 	CHECK(counter.used - of_lines < 32 * lines.segments, "%zu bytes for %zu segments", counter.used - of_lines,
 		  lines.segments);
 	free_both(&lines, &barriers);
 	CHECK(counter.used == 0, "%zu bytes left", counter.used);
 }
 
-static size_t allocations, failing_one;
-
-static void *
-fail_to_allocate(void *context, size_t size)
-{
-	(void) context;
-	return ++allocations == failing_one ? NULL : malloc(size);
-}
-
-static void *
-fail_to_reallocate(void *context, void *memory, size_t size)
-{
-	(void) context;
-	return ++allocations == failing_one ? NULL : realloc(memory, size);
-}
-
-static void
-release(void *context, void *memory)
-{
-	(void) context;
-	free(memory);
-}
-
-/* under the address sanitizer, which finds leaks */
 static void
 every_allocation_may_fail(void)
 {
 	random_state random = random_seed(9);
-	const ty_environment env = {fail_to_allocate, fail_to_reallocate, release, NULL, NULL, NULL};
-	ty_position corners[2] = {{0, 0}, {1000, 1000}};
+	ty_position places[PLACES] = {{0, 0}, {1000, 1000}};
 	ty_grid grid = grid_of(1, 0, 0);
 	size_t failed = 0;
 	bool all_went_well = false;
 
 	make_lines(&random, MOST_POINTS, 1000);
-	for (failing_one = 1; !all_went_well; failing_one++)
+	for (size_t failing = 1; !all_went_well; failing++)
 	{
+		counting counter;
+		ty_environment env = counting_environment(&counter);
 		ty_barrier_lines lines;
 		ty_barriers barriers = {.env = &env};
 		ty_status status = TY_OK;
 
-		allocations = 0;
+		counter.failing = failing;
 		ty_barrier_lines_begin(&lines, &env);
 		for (size_t l = 0; l < all.lines && status == TY_OK; l++)
 			status = ty_barrier_lines_add(&lines, all.points + all.first[l], sizeof(ty_point), all.count[l]);
 		if (status == TY_OK)
 			status = ty_barrier_lines_end(&lines);
 		if (status == TY_OK)
-			status = ty_barriers_fit(&env, &lines, &grid, corners, 2, &barriers);
+			status = ty_barriers_fit(&env, &lines, &grid, places, PLACES, &barriers);
 		CHECK(status == TY_OK || status == TY_NO_MEMORY, "status %d", status);
 		all_went_well = status == TY_OK;
 		failed += status == TY_NO_MEMORY;
 		free_both(&lines, &barriers);
+		CHECK(counter.used == 0, "%zu bytes left", counter.used);
 	}
 	CHECK(failed > 10, "only %zu failures", failed);
 }

@@ -3,6 +3,7 @@
  * or because single precision bends what is long, far from the origin, or in tiny units; so a site sits on a road.
  */
 #include "check.h"
+#include "counting.h"
 #include "random.h"
 #include "surroundings.h"
 
@@ -213,6 +214,40 @@ where_there_is_nothing(void)
 	ty_barrier_lines_free(&lines);
 }
 
+/* Where memory fails once, be it in the middle of a search, there is no survey that lacks something. */
+static void
+every_allocation_may_fail(void)
+{
+	random_state r = random_seed(24);
+	ty_barrier_lines lines;
+	size_t failed = 0, all = 0;
+	bool all_went_well = false;
+
+	make_lines(&r, &frames[0], &lines);
+	for (size_t failing = 1; !all_went_well; failing++)
+	{
+		counting counter;
+		ty_environment env = counting_environment(&counter);
+		ty_barrier_lines same = lines;
+		ty_surroundings s;
+		ty_status status;
+
+		same.env = &env;
+		counter.failing = failing;
+		ty_surroundings_begin(&same, SIDE, &s);
+		status = ty_survey(&s, (ty_point){SIDE / 2, SIDE / 2}, SIDE);
+		CHECK(status == (counter.allocations < failing ? TY_OK : TY_NO_MEMORY), "status %d, allocation %zu of %zu",
+			  status, failing, counter.allocations);
+		all_went_well = status == TY_OK;
+		failed += status == TY_NO_MEMORY;
+		all = s.near.count;
+		ty_surroundings_free(&s);
+		CHECK(counter.used == 0, "%zu bytes left", counter.used);
+	}
+	CHECK(failed >= 3 && all > 600, "%zu failures, %zu segments", failed, all);
+	ty_barrier_lines_free(&lines);
+}
+
 int
 main(int argc, char **argv)
 {
@@ -220,5 +255,6 @@ main(int argc, char **argv)
 	RUN(as_the_tree_of_all_lines_says);
 	RUN(a_long_segment_is_not_bent);
 	RUN(where_there_is_nothing);
+	RUN(every_allocation_may_fail);
 	return check_end();
 }
