@@ -175,11 +175,13 @@ SELECT ST_NumGeometries(typify(geom, 50000, 0, typify_options(barriers => (SELEC
 DROP TABLE typify_test_street;
 
 -- large ones are not copied where they stay in memory; those of a call that sorts its rows do not
-CREATE TABLE typify_test_street AS SELECT ST_SetSRID(ST_MakeLine(ST_MakePoint(i, 0), ST_MakePoint(i + 7, 2000)), 2056) AS geom FROM generate_series(0, 10000) AS i;
-CREATE TABLE typify_test_village AS SELECT i AS id, ST_SetSRID(ST_MakeEnvelope(x, y, x + 8, y + 7), 2056) AS geom FROM (SELECT i, i * 7919 % 10007 % 200 AS x, i * 104729 % 10009 % 200 AS y FROM generate_series(1, 200) AS i) AS q;
-SELECT ST_NumGeometries(plain) AS plain, sorted::bytea = plain::bytea AS sorted_as_plain
-FROM (SELECT typify(geom, 30000, 0.5, (SELECT typify_options(barriers => ST_Collect(geom)) FROM typify_test_street)) AS plain FROM typify_test_village) AS p,
-	(SELECT typify(geom, 30000, 0.5, (SELECT typify_options(barriers => ST_Collect(geom)) FROM typify_test_street) ORDER BY id) AS sorted FROM typify_test_village) AS s;
+CREATE TABLE typify_test_street AS SELECT ST_MakeLine(ST_MakePoint(i % 20 * 20 + 14, i / 20 * 0.01), ST_MakePoint(i % 20 * 20 + 14.5, 500)) AS geom FROM generate_series(1, 20000) AS i;
+CREATE TABLE typify_test_village AS SELECT i AS id, ST_MakeEnvelope(i % 20 * 20, i / 20 * 20, i % 20 * 20 + 8, i / 20 * 20 + 7) AS geom FROM generate_series(0, 39) AS i;
+SELECT few, ST_NumGeometries(plain) AS plain, sorted::bytea = plain::bytea AS sorted_as_plain
+FROM generate_series(5, 40, 5) AS few,
+	LATERAL (SELECT typify(geom, 50000, 0.5, (SELECT typify_options(barriers => ST_Collect(geom)) FROM typify_test_street)) AS plain FROM typify_test_village WHERE id < few) AS p,
+	LATERAL (SELECT typify(geom, 50000, 0.5, (SELECT typify_options(barriers => ST_Collect(geom)) FROM typify_test_street) ORDER BY id) AS sorted FROM typify_test_village WHERE id < few) AS s
+ORDER BY few;
 DROP TABLE typify_test_street, typify_test_village;
 
 DROP MATERIALIZED VIEW typify_test_view;
